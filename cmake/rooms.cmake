@@ -1,0 +1,44 @@
+# A room is one folder under src/conchoid: one static library that sees only the rooms it names.
+# Compiler settings are the same for every file: mixing -march between files breaks inline code shared by both.
+
+add_library(conchoid_settings INTERFACE)
+target_compile_features(conchoid_settings INTERFACE cxx_std_20)
+target_include_directories(conchoid_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                       $<INSTALL_INTERFACE:include>)
+# No contraction of a*b+c into fused operations: the same bits whatever the compiler inlines.
+target_compile_options(conchoid_settings INTERFACE
+  $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Werror -ffp-contract=off>)
+if(CONCHOID_NATIVE)
+  target_compile_options(conchoid_settings INTERFACE $<BUILD_INTERFACE:-march=native>)
+endif()
+if(CONCHOID_SANITIZE)
+  target_compile_options(conchoid_settings INTERFACE
+    $<BUILD_INTERFACE:-fsanitize=${CONCHOID_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all>)
+  target_link_options(conchoid_settings INTERFACE -fsanitize=${CONCHOID_SANITIZE})
+endif()
+
+# conchoid_room(NAME USES rooms... LIBRARIES external targets seen by users LIBRARIES_PRIVATE external targets hidden inside)
+function(conchoid_room name)
+  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES;LIBRARIES_PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(conchoid_${name} STATIC ${sources})
+  set_target_properties(conchoid_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  list(TRANSFORM ROOM_USES PREPEND conchoid_)
+  target_link_libraries(conchoid_${name} PUBLIC conchoid_settings ${ROOM_USES} ${ROOM_LIBRARIES}
+                                         PRIVATE ${ROOM_LIBRARIES_PRIVATE})
+  set_property(GLOBAL APPEND PROPERTY CONCHOID_ROOMS conchoid_${name})
+endfunction()
+
+# conchoid_test(NAME USES rooms... LIBRARIES external targets): tests/NAME/*.cpp become the program test_NAME.
+function(conchoid_test name)
+  cmake_parse_arguments(TEST "" "" "USES;LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  add_executable(test_${name} ${sources})
+  list(TRANSFORM TEST_USES PREPEND conchoid_)
+  target_link_libraries(test_${name} PRIVATE conchoid_settings ${TEST_USES} ${TEST_LIBRARIES} GTest::gtest_main)
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(test_${name} PRIVATE
+    CONCHOID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CONCHOID_BINARY="$<TARGET_FILE:conchoid>"
+    CONCHOID_SHARED_MODELS="${PROJECT_SOURCE_DIR}/../shared/models")
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 1200)
+endfunction()
