@@ -1,0 +1,68 @@
+#include "conchoid/bem/bordered_cholesky.hpp"
+
+#include <cblas.h>
+#include <lapacke.h>
+
+#include <algorithm>
+
+extern "C" void openblas_set_num_threads(int);
+
+namespace conchoid {
+namespace {
+
+// One BLAS thread: more would round differently for different thread counts.
+void use_one_blas_thread() {
+  static const bool once = (openblas_set_num_threads(1), true);
+  (void)once;
+}
+
+}  // namespace
+
+void BorderedCholesky::reserve(std::size_t n) {
+  if (n <= capacity_) return;
+  const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
+  std::vector<double> moved(grown * grown, 0.0);
+  for (std::size_t j = 0; j < n_; ++j)
+    std::copy_n(&factor_[j * capacity_ + j], n_ - j, &moved[j * grown + j]);
+  factor_ = std::move(moved);
+  capacity_ = grown;
+}
+
+bool BorderedCholesky::append(const std::vector<double>& coupling, const std::vector<double>& diagonal) {
+  use_one_blas_thread();
+  std::size_t m = 0;
+  while (m * m < diagonal.size())
+    ++m;
+  if (m == 0) return true;
+  reserve(n_ + m);
+  const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
+  double* border = factor_.data() + n_;                         // rows n…n+m of the old columns
+  double* corner = factor_.data() + n_ * capacity_ + n_;
+  for (std::size_t j = 0; j < n_; ++j)
+    for (std::size_t i = 0; i < m; ++i)
+      border[j * capacity_ + i] = coupling[i * n_ + j];
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = j; i < m; ++i)
+      corner[j * capacity_ + i] = diagonal[i * m + j];
+  if (n_ > 0) {
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.data(), lead,
+                border, lead);
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, n, -1.0, border, lead, 1.0, corner, lead);
+  }
+  if (LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', k, corner, lead) != 0) return false;
+  n_ += m;
+  return true;
+}
+
+void BorderedCholesky::truncate(std::size_t n) {
+  n_ = std::min(n, n_);
+}
+
+void BorderedCholesky::solve(double* b, std::size_t count) const {
+  if (n_ == 0 || count == 0) return;
+  use_one_blas_thread();
+  LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', static_cast<int>(n_), static_cast<int>(count), factor_.data(),
+                 static_cast<int>(capacity_), b, static_cast<int>(n_));
+}
+
+}  // namespace conchoid

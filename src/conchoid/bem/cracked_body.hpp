@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "conchoid/bem/boundary.hpp"
+#include "conchoid/bem/interior_stress.hpp"
+#include "conchoid/elastic/constants.hpp"
+#include "conchoid/mesh/corefine.hpp"
+
+namespace conchoid {
+
+struct BemSettings {
+  double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
+  bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
+};
+
+/// What the last set_crack() had to do.
+struct AppendStatistics {
+  std::size_t functions = 0;   ///< cut functions in the system
+  std::size_t assembled = 0;   ///< of these, assembled anew
+  std::size_t refactored = 0;  ///< of these, eliminated anew
+};
+
+/// An elastic body with cracks, by the symmetric Galerkin boundary element method.              docs/theory.md §2–4
+/// The body is assembled and factored once, on construction; a crack adds unknowns at the end of the system, and when it grows
+/// only what is new is assembled: functions whose support did not change are recognised and kept.
+///
+///   CrackedBody body(surface, data, material, {}, {});
+///   body.set_crack(corefine(surface, sheet, {.merge = 0.1}));
+///   body.solve();
+///   body.opening()[node]                 // Δu = u⁺ − u⁻ at the nodes of the cut complex
+class CrackedBody {
+ public:
+  /// @param surface  closed, outward; empty for an unbounded body (then `ambient` is the stress at infinity)
+  /// @param ambient  stress superposed on what the elements compute; its traction is already taken off `data`
+  /// Errors: ComputationError when the system is singular (a body that is not held and not balanced is refused before).
+  CrackedBody(TriMesh surface, BoundaryData data, const ElasticConstants& m, AmbientField ambient = {},
+              const BemSettings& settings = {});
+  ~CrackedBody();
+  CrackedBody(CrackedBody&&) noexcept;
+  CrackedBody& operator=(CrackedBody&&) noexcept;
+
+  /// Replaces the crack. Errors: ComputationError when a piece has come off (the system has become singular).
+  void set_crack(const CutComplex& cut);
+  void solve();
+
+  /// Full opening Δu [m] per node of the cut complex; zero on the front and off the crack.
+  const IdVector<NodeId, Vec3>& opening() const;
+  /// Displacement [m] of the surface's nodes (mean of the two sides at a mouth; up to a rigid motion if nothing is held).
+  IdVector<NodeId, Vec3> displacement() const;
+  /// Traction [Pa] per surface triangle.
+  std::vector<Vec3> traction() const;
+  /// Stress [Pa] per surface triangle, from displacement gradient and traction; mean over its pieces where the crack cuts it.
+  std::vector<Mat3> surface_stress() const;
+  /// Stress [Pa] at a point inside the body and off the crack.
+  Mat3 interior_stress(const Vec3& x) const;
+  const AppendStatistics& statistics() const;
+  /// ½ fᵀx [J]: half the work of the loads; the part due to the crack is the energy it releases under constant load.
+  double energy() const;
+
+ private:
+  std::vector<LoadedPanel> loaded_panels() const;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A cut complex for a crack in an unbounded body: the sheet alone.
+CutComplex uncut_sheet(const TriMesh& sheet);
+/// A cut complex without a crack.
+CutComplex whole_surface(const TriMesh& surface);
+
+}  // namespace conchoid

@@ -1,0 +1,170 @@
+#include "conchoid/bem/cut_rows.hpp"
+
+#include <algorithm>
+
+#include "conchoid/bem/pair_blocks.hpp"
+#include "conchoid/core/parallel.hpp"
+
+namespace conchoid {
+namespace {
+
+// A cut function as one panel sees it.
+struct LocalFunction {
+  std::size_t index;  // in space.functions, or in `wanted` on the test side
+  std::array<double, 3> w;
+  Vec3 curl;
+};
+using PanelFunctions = std::vector<std::vector<LocalFunction>>;
+
+Vec3 curl_of(const std::array<Vec3, 3>& corner_curls, const std::array<double, 3>& w) {
+  return w[0] * corner_curls[0] + w[1] * corner_curls[1] + w[2] * corner_curls[2];
+}
+
+double weigh(const DoubleLayerPair& dl, const std::array<double, 3>& w) {
+  return w[0] * dl[0] + w[1] * dl[1] + w[2] * dl[2];
+}
+
+struct TestRows {
+  const LocalFunction& f;
+  CutRows rows;
+};
+
+class CutRowAssembler {
+ public:
+  CutRowAssembler(const CutProblem& problem, const CutSpace& space, const std::vector<std::size_t>& wanted)
+      : p_(problem), space_(space), trial_(space.panels.size()), test_(space.panels.size()) {
+    for (const Panel& panel : space.panels)
+      curls_.push_back(surface_curls(panel));
+    for (std::size_t f = 0; f < space.functions.size(); ++f)
+      register_function(f, f, trial_);
+    for (std::size_t w = 0; w < wanted.size(); ++w)
+      register_function(wanted[w], w, test_);
+    for (std::size_t x = 0; x < test_.size(); ++x)
+      if (!test_[x].empty()) test_panels_.push_back(x);
+    rows_.resize(wanted.size());
+    for (CutRows& r : rows_)
+      r = empty_rows();
+  }
+
+  // Panels in batches: each panel's contributions are computed apart and added in the order of the panels.
+  std::vector<CutRows> assemble() {
+    constexpr std::size_t batch = 64;
+    for (std::size_t start = 0; start < test_panels_.size(); start += batch) {
+      const std::size_t count = std::min(batch, test_panels_.size() - start);
+      std::vector<std::vector<TestRows>> parts(count);
+      parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          parts[i] = rows_of_panel(test_panels_[start + i]);
+      });
+      for (const auto& part : parts)
+        for (const TestRows& t : part)
+          accumulate(t.rows, rows_[t.f.index]);
+    }
+    return std::move(rows_);
+  }
+
+ private:
+  void register_function(std::size_t function, std::size_t index, PanelFunctions& lists) const {
+    for (const PanelValues& v : space_.functions[function].support)
+      lists[v.panel].push_back({index, v.w, curl_of(curls_[v.panel], v.w)});
+  }
+
+  CutRows empty_rows() const {
+    CutRows r;
+    r.D_body = DenseMatrix(3, 3 * p_.body.unknowns.displacement_count);
+    r.D_cut = DenseMatrix(3, 3 * space_.functions.size());
+    r.K = DenseMatrix(3 * p_.body.unknowns.traction_count, 3);
+    return r;
+  }
+
+  static void accumulate(const CutRows& from, CutRows& to) {
+    const auto add = [](const std::vector<double>& a, std::vector<double>& b) {
+      for (std::size_t i = 0; i < a.size(); ++i)
+        b[i] += a[i];
+    };
+    add(from.D_body.data, to.D_body.data);
+    add(from.D_cut.data, to.D_cut.data);
+    add(from.K.data, to.K.data);
+    to.load += from.load;
+  }
+
+  std::vector<TestRows> rows_of_panel(std::size_t x) const {
+    std::vector<TestRows> out;
+    for (const LocalFunction& f : test_[x]) {
+      out.push_back({f, empty_rows()});
+      out.back().rows.load = own_load(x, f);
+    }
+    for (std::size_t y = 0; y < space_.panels.size(); ++y) {
+      const bool on_surface = y < space_.surface_count;
+      if (!on_surface && trial_[y].empty()) continue;
+      const PairBlocks blocks(p_.integrator.single_layer(space_.panels[x], space_.panels[y]), p_.m);
+      for (TestRows& t : out)
+        for (const LocalFunction& g : trial_[y])
+          t.rows.D_cut.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
+      if (on_surface) add_body(x, y, blocks, out);
+    }
+    return out;
+  }
+
+  // Interaction with the body's own functions on surface piece y.
+  void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) const {
+    const TriId parent = space_.parent[y];
+    const auto& nodes = p_.surface.corners[parent];
+    for (int k = 0; k < 3; ++k) {
+      const int column = p_.body.unknowns.displacement[nodes[k].index()];
+      if (column < 0 && p_.data.displacement[nodes[k]] == Vec3::Zero()) continue;
+      for (TestRows& t : out) {
+        const Mat3 block = blocks.hypersingular(t.f.curl, p_.body.curls[parent.index()][k]);
+        if (column >= 0)
+          t.rows.D_body.add(0, 3 * static_cast<std::size_t>(column), block);
+        else
+          t.rows.load -= block * p_.data.displacement[nodes[k]];
+      }
+    }
+    const int q = p_.body.unknowns.traction[parent.index()];
+    if (q < 0 && p_.data.traction[parent.index()] == Vec3::Zero()) return;
+    const DoubleLayerPair dl = p_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+    for (TestRows& t : out) {
+      const Mat3 block = blocks.double_layer(t.f.curl, weigh(dl, t.f.w));
+      if (q >= 0)
+        t.rows.K.add(3 * static_cast<std::size_t>(q), 0, block);
+      else
+        t.rows.load -= block.transpose() * p_.data.traction[parent.index()];
+    }
+  }
+
+  // ½M g_N on the surface; the ambient stress, as the traction it puts on the crack plane, on the crack.
+  Vec3 own_load(std::size_t x, const LocalFunction& f) const {
+    const Panel& panel = space_.panels[x];
+    if (x < space_.surface_count) {
+      const std::size_t t = space_.parent[x].index();
+      const double mean = (f.w[0] + f.w[1] + f.w[2]) / 3;
+      return p_.data.kind[t] == BoundaryKind::traction ? Vec3(0.5 * mean * panel.area * p_.data.traction[t])
+                                                       : Vec3::Zero();
+    }
+    if (!p_.ambient.stress) return Vec3::Zero();
+    Vec3 load = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {  // edge midpoints: exact for linear stress times linear shape
+      const Vec3 middle = 0.5 * (panel.x[k] + panel.x[(k + 1) % 3]);
+      const double opening = -0.5 * (f.w[k] + f.w[(k + 1) % 3]);
+      load += panel.area / 3 * opening * (p_.ambient.stress(middle) * panel.normal);
+    }
+    return load;
+  }
+
+  const CutProblem& p_;
+  const CutSpace& space_;
+  std::vector<std::array<Vec3, 3>> curls_;
+  PanelFunctions trial_, test_;
+  std::vector<std::size_t> test_panels_;
+  std::vector<CutRows> rows_;
+};
+
+}  // namespace
+
+std::vector<CutRows> assemble_cut_rows(const CutProblem& problem, const CutSpace& space,
+                                       const std::vector<std::size_t>& wanted) {
+  return CutRowAssembler(problem, space, wanted).assemble();
+}
+
+}  // namespace conchoid

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/elastic/constants.hpp"
+#include "conchoid/quadrature/pair_integrals.hpp"
+
+namespace conchoid {
+
+/// A panel with the data it carries: traction t [Pa] (constant) and density w [m] at its corners (u on the surface, −Δu on a crack).
+struct LoadedPanel {
+  Panel panel;
+  Vec3 traction;
+  std::array<Vec3, 3> density;
+};
+
+/// Stress at an inner point by differentiating the representation formula (Somigliana's identity):
+/// σ_ij(x) = ∫ D_kij(x,y) t_k(y) − ∫ S_kij(x,y) w_k(y)                                      docs/theory.md (T2)
+/// Panels are halved until they are small against their distance from x; x must not lie on a panel.
+Mat3 interior_stress(const Vec3& x, const std::vector<LoadedPanel>& panels, const ElasticConstants& m);
+
+}  // namespace conchoid
