@@ -1,0 +1,201 @@
+#include "conchoid/crack/stress_intensity.hpp"
+
+#include <gtest/gtest.h>
+
+#include "crack_samples.hpp"
+
+using namespace conchoid;
+using namespace conchoid::testing;
+
+namespace {
+
+const ElasticConstants kGlass{7e10, 0.22};
+
+/// Exact opening of a penny crack (centre 0, normal z) under tension σ [Pa] and shear τ along x [Pa].
+/// Δu_z = 4(1−ν)σ/(πμ) √(a²−ρ²), Δu_x = 8(1−ν)τ/(π(2−ν)μ) √(a²−ρ²).
+IdVector<NodeId, Vec3> penny_opening(const TriMesh& mesh, double a, double tension, double shear) {
+  const double nu = kGlass.poisson_ratio, mu = kGlass.shear_modulus(), pi = std::numbers::pi;
+  const Vec3 amplitude(8 * (1 - nu) * shear / (pi * (2 - nu) * mu), 0, 4 * (1 - nu) * tension / (pi * mu));
+  IdVector<NodeId, Vec3> opening;
+  for (const Vec3& x : mesh.positions) {
+    const double rest = a * a - x.squaredNorm();
+    opening.push_back(rest > 1e-9 * a * a ? Vec3(amplitude * std::sqrt(rest)) : Vec3::Zero());
+  }
+  return opening;
+}
+
+double exact_tension_intensity(double a, double sigma) {
+  return 2 * sigma * std::sqrt(a / std::numbers::pi);
+}
+
+/// Inner nodes shaken in the plane by up to `share` of the edge length.
+TriMesh shaken_disc(double a, int rings, double share) {
+  TriMesh mesh = disc(a, rings);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (std::size_t i = 0; i < mesh.node_count() - 6 * static_cast<std::size_t>(rings); ++i)
+    mesh.positions[NodeId(i)] += share * a / rings * Vec3(any(random), any(random), 0);
+  return mesh;
+}
+
+/// A disc whose outer row of nodes lies `thin` edge lengths inside the front, as after a frame of slow
+/// growth.
+TriMesh disc_with_thin_strip(double a, int rings, double thin) {
+  const double edge = a / rings;
+  return disc_with_radii(rings, [=](int k) {
+    if (k == rings) return a;
+    return (a - thin * edge) * k / (rings - 1);
+  });
+}
+
+void expect_uniform(const TriMesh& mesh, double a, SifMethod method, double tolerance) {
+  const auto fronts = find_fronts(mesh, {});
+  const auto K = stress_intensities(mesh, fronts[0], penny_opening(mesh, a, 1e6, 0), kGlass, {method});
+  const double exact = exact_tension_intensity(a, 1e6);
+  for (const Vec3& k : K) {
+    EXPECT_NEAR(k[0] / exact, 1, tolerance);
+    EXPECT_NEAR(k[1] / exact, 0, tolerance);
+    EXPECT_NEAR(k[2] / exact, 0, tolerance);
+  }
+}
+
+}  // namespace
+
+TEST(StressIntensity, InverseOfForwardIsIdentity) {
+  for (auto convention : {SifConvention::full_opening, SifConvention::half_opening}) {
+    const Vec3 K(1.3e6, -0.4e6, 2.2e5);
+    const Vec3 opening = opening_from_intensity(K, 0.017, kGlass, convention);
+    EXPECT_LT((stress_intensity(opening, 0.017, kGlass, convention) - K).norm(), 1e-9 * K.norm());
+  }
+}
+
+TEST(StressIntensity, TheHalfOpeningFormulaGivesTwice) {
+  const Vec3 opening(1e-6, 2e-6, -3e-6);
+  EXPECT_EQ(stress_intensity(opening, 0.01, kGlass, SifConvention::half_opening),
+            2 * stress_intensity(opening, 0.01, kGlass, SifConvention::full_opening));
+}
+
+TEST(StressIntensity, PlaneStrainFieldOfUnitIntensity) {
+  const double nu = kGlass.poisson_ratio, mu = kGlass.shear_modulus(), r = 0.02;
+  const double root = std::sqrt(r / (2 * std::numbers::pi));
+  const Vec3 K =
+      stress_intensity({4 * (1 - nu) / mu * root, 4 * (1 - nu) / mu * root, 4 / mu * root}, r, kGlass);
+  EXPECT_LT((K - Vec3::Ones()).norm(), 1e-13);
+}
+
+TEST(StressIntensities, TwoPointIsWithinOnePercentOnThePennyCrack) {
+  for (int rings : {4, 6, 8, 12})
+    expect_uniform(disc(0.3, rings), 0.3, SifMethod::two_point, 0.01);
+}
+
+TEST(StressIntensities, TwoPointIsWithinOnePercentOnAnIrregularMesh) {
+  for (int rings : {6, 8, 12})
+    expect_uniform(shaken_disc(0.3, rings, 0.2), 0.3, SifMethod::two_point, 0.01);
+}
+
+TEST(StressIntensities, TwoPointIsWithinOnePercentBehindAThinStrip) {
+  for (double thin : {0.1, 0.2, 0.4, 0.7})
+    expect_uniform(disc_with_thin_strip(0.3, 10, thin), 0.3, SifMethod::two_point, 0.01);
+}
+
+TEST(StressIntensities, OnePointIsLowByTheCurvatureOfTheProfile) {
+  // √(2ar − r²) against √(2ar): √(1 − r/2a), r = a/8 → −3 %.
+  expect_uniform(disc(0.3, 8), 0.3, SifMethod::one_point, 0.045);
+}
+
+TEST(StressIntensities, ShearedPennyHasTheExactModesAllAround) {
+  const double a = 1.0, tau = 1e6, nu = kGlass.poisson_ratio;
+  for (int rings : {8, 12}) {
+    const TriMesh mesh = disc(a, rings);
+    const auto front = find_fronts(mesh, {})[0];
+    const auto K = stress_intensities(mesh, front, penny_opening(mesh, a, 0, tau), kGlass, {});
+    const double root = std::sqrt(a / std::numbers::pi);
+    const double K2 = 4 * tau * root / (2 - nu), K3 = 4 * (1 - nu) * tau * root / (2 - nu);
+    for (std::size_t i = 0; i < front.nodes.size(); ++i) {
+      const Vec3 x = mesh.positions[front.nodes[i]] / a;  // e2 = x, e3 = z × x
+      EXPECT_NEAR(K[i][1], K2 * x.x(), 0.01 * K2);
+      EXPECT_NEAR(K[i][2], -K3 * x.y(), 0.01 * K3);
+      EXPECT_NEAR(K[i][0], 0, 1e-6 * K2);
+    }
+  }
+}
+
+TEST(StressIntensities, RotationAndScaleDoNotMatter) {
+  const TriMesh mesh = shaken_disc(0.3, 6, 0.2);
+  const auto opening = penny_opening(mesh, 0.3, 1e6, 0.7e6);
+  const Mat3 turn = some_rotation();
+  const double s = 1024;  // lengths; openings scale alike, K by √s
+  TriMesh moved = transformed(mesh, s * turn);
+  IdVector<NodeId, Vec3> moved_opening;
+  for (const Vec3& u : opening)
+    moved_opening.push_back(s * turn * u);
+  for (auto method : {SifMethod::one_point, SifMethod::two_point}) {
+    const auto K = stress_intensities(mesh, find_fronts(mesh, {})[0], opening, kGlass, {method});
+    const auto M = stress_intensities(moved, find_fronts(moved, {})[0], moved_opening, kGlass, {method});
+    for (std::size_t i = 0; i < K.size(); ++i)
+      EXPECT_LT((M[i] / std::sqrt(s) - K[i]).norm(), 1e-10 * K[i].norm());
+  }
+}
+
+TEST(StressIntensities, ScalingByAPowerOfFourKeepsTheBits) {
+  const TriMesh mesh = shaken_disc(0.3, 6, 0.2);
+  auto opening = penny_opening(mesh, 0.3, 1e6, 0.7e6);
+  const auto K = stress_intensities(mesh, find_fronts(mesh, {})[0], opening, kGlass, {});
+  const TriMesh big = transformed(mesh, 64 * Mat3::Identity());
+  for (Vec3& u : opening)
+    u *= 8;  // Δu ∝ √r: the same K
+  const auto M = stress_intensities(big, find_fronts(big, {})[0], opening, kGlass, {});
+  for (std::size_t i = 0; i < K.size(); ++i)
+    EXPECT_EQ(M[i], K[i]);
+}
+
+TEST(StressIntensities, AStraightOpenFrontKeepsALinearVariation) {
+  // Front x = 2, 0 ≤ y ≤ 4, mouth on the other three sides; K_I(y) = 1 + y/8.
+  const TriMesh mesh = rectangle(2, 4, 8, 16);
+  std::vector<Edge> mouth;
+  const auto node = [](int i, int j) { return NodeId(j * 9 + i); };
+  for (int i = 0; i < 8; ++i)
+    mouth.insert(mouth.end(), {Edge(node(i, 0), node(i + 1, 0)), Edge(node(i, 16), node(i + 1, 16))});
+  for (int j = 0; j < 16; ++j)
+    mouth.emplace_back(node(0, j), node(0, j + 1));
+  std::sort(mouth.begin(), mouth.end());
+  const auto fronts = find_fronts(mesh, mouth);
+  ASSERT_EQ(fronts.size(), 1u);
+  IdVector<NodeId, Vec3> opening;
+  for (const Vec3& x : mesh.positions) {
+    const double r = 2 - x.x();
+    opening.push_back(r > 0
+                          ? Vec3(opening_from_intensity({1 + x.y() / 8, 0, 0}, r, kGlass)[0] * Vec3::UnitZ())
+                          : Vec3::Zero());
+  }
+  for (auto method : {SifMethod::one_point, SifMethod::two_point}) {
+    const auto K = stress_intensities(mesh, fronts[0], opening, kGlass, {method});
+    for (std::size_t i = 0; i < K.size(); ++i) {
+      const double exact = 1 + mesh.positions[fronts[0].nodes[i]].y() / 8;
+      const bool end = i == 0 || i + 1 == K.size();
+      EXPECT_NEAR(K[i][0], exact, end || method == SifMethod::one_point ? 0.05 : 1e-3) << i;
+    }
+  }
+}
+
+TEST(StressIntensities, ACrackOneRowWideHasNothingToReadFrom) {
+  const TriMesh mesh = rectangle(6, 1, 6, 1);
+  const auto front = find_fronts(mesh, {})[0];
+  const IdVector<NodeId, Vec3> opening(mesh.node_count(), Vec3::Zero());
+  for (auto method : {SifMethod::one_point, SifMethod::two_point})
+    for (const Vec3& k : stress_intensities(mesh, front, opening, kGlass, {method}))
+      EXPECT_EQ(k, Vec3::Zero());
+}
+
+TEST(StressIntensities, CornersWithoutAnInteriorNodeInheritFromTheirNeighbours) {
+  const TriMesh mesh = rectangle(4, 4, 4, 4);
+  const auto front = find_fronts(mesh, {})[0];
+  IdVector<NodeId, Vec3> opening;
+  for (const Vec3& x : mesh.positions) {
+    const double r = std::min({x.x(), x.y(), 4 - x.x(), 4 - x.y()});
+    opening.push_back(std::sqrt(r) * Vec3::UnitZ());
+  }
+  for (auto method : {SifMethod::one_point, SifMethod::two_point})
+    for (const Vec3& k : stress_intensities(mesh, front, opening, kGlass, {method}))
+      EXPECT_GT(k[0], 0);
+}
