@@ -1,0 +1,453 @@
+#include "conchoid/mesh/retriangulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "conchoid/core/error.hpp"
+
+namespace conchoid {
+namespace {
+
+using Index = int;
+using Polygon = std::vector<Index>;  ///< closed walk, counter-clockwise; nodes come twice along a slit
+using Link = std::pair<Index, Index>;
+
+Link link(Index a, Index b) {
+  return a < b ? Link(a, b) : Link(b, a);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Larger polygons are reduced by cutting off ears before the optimal triangulation, whose cost grows with
+/// n³.
+constexpr std::size_t optimal_limit = 40;
+
+double area2(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - a;
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+/// The triangle in its own plane: x along (corner 0, corner 1), longest edge of length 1. Local nodes are 0,
+/// 1, 2 (corners), then the others in ascending id, so that an index comparison is an id comparison.
+class LocalTriangle {
+ public:
+  LocalTriangle(const IdVector<NodeId, Vec3>& positions, const TriangleCut& cut) : cut_(cut) {
+    collect_nodes();
+    project(positions);
+    std::vector<Link> rim;
+    for (int k = 0; k < 3; ++k) {
+      Index last = k;
+      edges_of_[k] |= (1 << k) | (1 << ((k + 2) % 3));
+      for (const NodeId id : cut.on_edge[k]) {
+        const Index i = index(id);
+        edges_of_[i] |= 1 << k;
+        rim_.push_back(last);
+        last = i;
+      }
+      rim_.push_back(last);
+    }
+    for (std::size_t i = 0; i < rim_.size(); ++i)
+      used_.insert(link(rim_[i], rim_[(i + 1) % rim_.size()]));
+    for (const Edge& s : cut.segments) {
+      const Index a = index(s.a), b = index(s.b);
+      used_.insert(link(a, b));
+      neighbours_[a].push_back(b);
+      neighbours_[b].push_back(a);
+    }
+  }
+
+  std::vector<std::array<NodeId, 3>> pieces() {
+    std::vector<Polygon> faces = faces_at_rim();
+    join_islands(faces);
+    std::vector<std::array<Index, 3>> triangles;
+    for (Polygon& face : faces)
+      triangulate(std::move(face), triangles);
+    std::vector<std::array<NodeId, 3>> result;
+    for (const auto& t : triangles)
+      result.push_back({ids_[t[0]], ids_[t[1]], ids_[t[2]]});
+    return result;
+  }
+
+ private:
+  Index index(NodeId id) const {
+    for (int k = 0; k < 3; ++k)
+      if (cut_.corners[k] == id) return k;
+    return static_cast<Index>(std::lower_bound(ids_.begin() + 3, ids_.end(), id) - ids_.begin());
+  }
+
+  void collect_nodes() {
+    ids_.assign(cut_.corners.begin(), cut_.corners.end());
+    for (const auto& nodes : cut_.on_edge)
+      ids_.insert(ids_.end(), nodes.begin(), nodes.end());
+    for (const Edge& s : cut_.segments)
+      for (const NodeId id : {s.a, s.b})
+        if (std::find(cut_.corners.begin(), cut_.corners.end(), id) == cut_.corners.end()) ids_.push_back(id);
+    std::sort(ids_.begin() + 3, ids_.end());
+    ids_.erase(std::unique(ids_.begin() + 3, ids_.end()), ids_.end());
+    edges_of_.assign(ids_.size(), 0);
+    neighbours_.resize(ids_.size());
+  }
+
+  void project(const IdVector<NodeId, Vec3>& positions) {
+    const Vec3 &a = positions[ids_[0]], &b = positions[ids_[1]], &c = positions[ids_[2]];
+    const double longest =
+        std::sqrt(std::max({(b - a).squaredNorm(), (c - a).squaredNorm(), (c - b).squaredNorm()}));
+    Vec3 e1 = b - a;
+    if (e1.squaredNorm() > 0) e1 /= e1.norm();
+    Vec3 e2 = (c - a) - e1.dot(c - a) * e1;
+    if (e2.squaredNorm() > 0) e2 /= e2.norm();
+    at_.resize(ids_.size());
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const Vec3 d = (positions[ids_[i]] - a) / (longest > 0 ? longest : 1.0);
+      at_[i] = {d.dot(e1), d.dot(e2)};
+    }
+  }
+
+  /// Walks the faces that touch the rim: at a node on an edge the one segment that starts there lies between
+  /// the two parts of the edge.
+  std::vector<Polygon> faces_at_rim() {
+    const Index n = static_cast<Index>(rim_.size());
+    std::vector<Index> place(ids_.size(), -1);
+    for (Index i = 0; i < n; ++i)
+      place[rim_[i]] = i;
+    for (Index i = 0; i < n; ++i)
+      if (neighbours_[rim_[i]].size() > 1)
+        throw ComputationError("a cut triangle has two mouth curves through one edge node");
+    std::vector<bool> walked(n, false);
+    std::vector<Polygon> faces;
+    for (Index start = 0; start < n; ++start) {
+      if (walked[start]) continue;
+      Polygon face;
+      Index at = start;  // place on the rim; next step goes along the rim
+      do {
+        walked[at] = true;
+        face.push_back(rim_[at]);
+        Index node = rim_[(at + 1) % n];
+        if (neighbours_[node].empty()) {
+          at = (at + 1) % n;
+          continue;
+        }
+        // leave the rim along the curve, back to the rim (perhaps to the same node, when the curve ends
+        // inside)
+        Index previous = -1;
+        do {
+          face.push_back(node);
+          const auto& next = neighbours_[node];
+          if (next.size() > 2) throw ComputationError("mouth curves branch inside a triangle");
+          const Index to = next.size() == 1 || next[0] != previous ? next[0] : next[1];
+          previous = node;
+          node = to;
+        } while (place[node] < 0);
+        at = place[node];
+        if (face.size() > 4 * ids_.size()) throw ComputationError("mouth curves in a triangle do not close");
+      } while (at != start);
+      faces.push_back(std::move(face));
+    }
+    if (faces.size() != 1 + chords()) throw ComputationError("mouth curves cross inside a triangle");
+    return faces;
+  }
+
+  /// Number of curves from edge to edge; each divides a face in two, unless they cross.
+  std::size_t chords() const {
+    std::size_t ends = 0;
+    for (const Index start : rim_) {
+      if (neighbours_[start].empty()) continue;
+      Index previous = start, node = neighbours_[start][0];
+      while (node >= 3 && edges_of_[node] == 0 && neighbours_[node].size() == 2) {
+        const Index to = neighbours_[node][0] != previous ? neighbours_[node][0] : neighbours_[node][1];
+        previous = node;
+        node = to;
+      }
+      ends += edges_of_[node] != 0;
+    }
+    return ends / 2;
+  }
+
+  /// Curves that touch no edge: closed loops and open paths. Larger loops first, so that nested ones find
+  /// their face.
+  void join_islands(std::vector<Polygon>& faces) {
+    std::vector<bool> seen(ids_.size(), false);
+    for (const Index i : rim_)
+      mark(i, seen);
+    struct Island {
+      Polygon walk;
+      double area;
+      bool closed;
+    };
+    std::vector<Island> islands;
+    for (Index i = 3; i < static_cast<Index>(ids_.size()); ++i) {
+      if (seen[i]) continue;
+      islands.push_back({});
+      Island& island = islands.back();
+      Index start = i;  // the lowest id of a loop, the lower end of a path
+      const std::vector<Index> members = mark(i, seen);
+      for (const Index m : members) {
+        if (neighbours_[m].size() > 2) throw ComputationError("mouth curves branch inside a triangle");
+        if (neighbours_[m].size() == 1 && (neighbours_[start].size() != 1 || m < start)) start = m;
+      }
+      island.closed = neighbours_[start].size() == 2;
+      Index previous = -1, node = start;
+      do {
+        island.walk.push_back(node);
+        const auto& next = neighbours_[node];
+        const Index to = next.size() == 1      ? next[0]
+                         : previous < 0        ? std::min(next[0], next[1])
+                         : next[0] != previous ? next[0]
+                                               : next[1];
+        previous = node;
+        node = to;
+      } while (node != start);
+      island.area = signed_area(island.walk);
+      if (island.closed && island.area < 0) {
+        std::reverse(island.walk.begin(), island.walk.end());
+        island.area = -island.area;
+      }
+    }
+    std::stable_sort(islands.begin(), islands.end(),
+                     [](const Island& x, const Island& y) { return x.area > y.area; });
+    for (const Island& island : islands) {
+      Polygon& face = containing_face(faces, island.walk);
+      Polygon hole = island.walk;
+      std::reverse(hole.begin(), hole.end());
+      bridge(face, hole);
+      if (island.closed) faces.push_back(island.walk);
+    }
+  }
+
+  std::vector<Index> mark(Index start, std::vector<bool>& seen) const {
+    std::vector<Index> members;
+    if (seen[start]) return members;
+    seen[start] = true;
+    members.push_back(start);
+    for (std::size_t k = 0; k < members.size(); ++k)
+      for (const Index j : neighbours_[members[k]])
+        if (!seen[j]) {
+          seen[j] = true;
+          members.push_back(j);
+        }
+    return members;
+  }
+
+  double signed_area(const Polygon& p) const {
+    double sum = 0;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i)
+      sum += area2(at_[p[0]], at_[p[i]], at_[p[i + 1]]);
+    return sum;
+  }
+
+  bool contains(const Polygon& p, const Vec2& x) const {
+    bool inside = false;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vec2 &a = at_[p[i]], &b = at_[p[(i + 1) % p.size()]];
+      if ((a.y() > x.y()) != (b.y() > x.y()) && (area2(a, b, x) > 0) == (b.y() > a.y())) inside = !inside;
+    }
+    return inside;
+  }
+
+  /// The face most nodes of the island lie in (round-off may put single ones astray).
+  Polygon& containing_face(std::vector<Polygon>& faces, const Polygon& island) const {
+    std::size_t best = 0;
+    long best_votes = -1;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      long votes = 0;
+      for (std::size_t i = 0; i < island.size(); ++i)
+        votes += contains(faces[f], at_[island[i]]) +
+                 contains(faces[f], 0.5 * (at_[island[i]] + at_[island[(i + 1) % island.size()]]));
+      if (votes > best_votes) {
+        best_votes = votes;
+        best = f;
+      }
+    }
+    return faces[best];
+  }
+
+  bool crosses(Index a, Index b, Index c, Index d) const {
+    if (a == c || a == d || b == c || b == d) return false;
+    const auto &A = at_[a], &B = at_[b], &C = at_[c], &D = at_[d];
+    return (area2(A, B, C) > 0) != (area2(A, B, D) > 0) && (area2(C, D, A) > 0) != (area2(C, D, B) > 0);
+  }
+
+  /// Joins a hole to the polygon around it by the shortest edge that crosses nothing; the joined walk runs
+  /// along it twice.
+  void bridge(Polygon& face, const Polygon& hole) {
+    struct Candidate {
+      double length;
+      std::size_t i, j;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < face.size(); ++i)
+      for (std::size_t j = 0; j < hole.size(); ++j)
+        candidates.push_back({(at_[face[i]] - at_[hole[j]]).squaredNorm(), i, j});
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& x, const Candidate& y) { return x.length < y.length; });
+    const auto clear = [&](const Candidate& c) {
+      for (const Polygon* p : {static_cast<const Polygon*>(&face), &hole})
+        for (std::size_t k = 0; k < p->size(); ++k)
+          if (crosses(face[c.i], hole[c.j], (*p)[k], (*p)[(k + 1) % p->size()])) return false;
+      return in_wedge(face, c.i, at_[hole[c.j]]) && in_wedge(hole, c.j, at_[face[c.i]]);
+    };
+    const auto found = std::find_if(candidates.begin(), candidates.end(), clear);
+    const Candidate chosen = found != candidates.end() ? *found : candidates.front();
+    used_.insert(link(face[chosen.i], hole[chosen.j]));
+    Polygon joined(face.begin(), face.begin() + static_cast<long>(chosen.i) + 1);
+    for (std::size_t k = 0; k <= hole.size(); ++k)
+      joined.push_back(hole[(chosen.j + k) % hole.size()]);
+    joined.insert(joined.end(), face.begin() + static_cast<long>(chosen.i), face.end());
+    face = std::move(joined);
+  }
+
+  /// Whether x is seen from corner i of the walk on its inner side (the left).
+  bool in_wedge(const Polygon& p, std::size_t i, const Vec2& x) const {
+    const Index before = p[(i + p.size() - 1) % p.size()], after = p[(i + 1) % p.size()];
+    if (before == after) return true;
+    const Vec2 &a = at_[before], &b = at_[p[i]], &c = at_[after];
+    const bool left_in = area2(a, b, x) > 0, left_out = area2(b, c, x) > 0;
+    return area2(a, b, c) > 0 ? left_in && left_out : left_in || left_out;
+  }
+
+  /// No edge of a piece may join two nodes of one edge of the triangle, or double an edge that exists.
+  bool allowed(Index a, Index b) const {
+    return a != b && (edges_of_[a] & edges_of_[b]) == 0 && !used_.contains(link(a, b));
+  }
+
+  /// Small for good shapes (1 for equilateral), huge for no area, prohibitive for the wrong orientation.
+  double badness(Index a, Index b, Index c) const {
+    const Vec2 &A = at_[a], &B = at_[b], &C = at_[c];
+    const double area = area2(A, B, C);
+    const double lengths = (B - A).squaredNorm() + (C - B).squaredNorm() + (A - C).squaredNorm();
+    if (area <= 0) return 1e12 + 1e30 * -area;
+    return std::min(1e12, lengths / (2 * std::sqrt(3.0) * area));
+  }
+
+  void triangulate(Polygon polygon, std::vector<std::array<Index, 3>>& out) {
+    cut_ears(polygon, out);
+    for (int attempt = 0;; ++attempt) {
+      std::vector<std::array<Index, 3>> result;
+      optimal_triangulation(polygon, result);
+      // both banks of a straight slit may have chosen the same diagonal: forbid it and try again
+      std::map<Link, int> count;
+      for (const auto& t : result)
+        for (int k = 0; k < 3; ++k)
+          ++count[link(t[k], t[(k + 1) % 3])];
+      bool doubled = false;
+      for (const auto& [l, uses] : count)
+        if (uses > 2) {
+          used_.insert(l);
+          doubled = true;
+        }
+      if (doubled && attempt < 10) continue;
+      if (doubled) throw ComputationError("a cut triangle could not be divided into pieces");
+      for (const auto& [l, uses] : count)
+        used_.insert(l);
+      out.insert(out.end(), result.begin(), result.end());
+      return;
+    }
+  }
+
+  /// Takes well-shaped triangles off a large polygon, the best first, as long as no other node comes near
+  /// them.
+  void cut_ears(Polygon& p, std::vector<std::array<Index, 3>>& out) {
+    constexpr double margin = 1e-9;
+    const auto quality = [&](std::size_t i) {
+      const std::size_t n = p.size();
+      const Index a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
+      if (a == c || a == b || b == c || !allowed(a, c)) return infinity;
+      const double bad = badness(a, b, c);
+      if (bad > 1e6) return infinity;
+      const double tolerance = margin * (at_[c] - at_[a]).norm();
+      for (const Index q : p) {
+        if (q == a || q == b || q == c) continue;
+        if (area2(at_[a], at_[b], at_[q]) > -tolerance * (at_[b] - at_[a]).norm() &&
+            area2(at_[b], at_[c], at_[q]) > -tolerance * (at_[c] - at_[b]).norm() &&
+            area2(at_[c], at_[a], at_[q]) > -tolerance * (at_[a] - at_[c]).norm())
+          return infinity;
+      }
+      // a node that comes twice: the ear must lie on this bank of the slit
+      return in_wedge(p, (i + n - 1) % n, at_[c]) && in_wedge(p, (i + 1) % n, at_[a]) ? bad : infinity;
+    };
+    if (p.size() <= optimal_limit) return;
+    std::vector<double> bad(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i)
+      bad[i] = quality(i);
+    bool fresh = true;
+    while (p.size() > optimal_limit) {
+      std::size_t best = 0;
+      for (std::size_t i = 1; i < p.size(); ++i)
+        if (bad[i] < bad[best] * (1 - 1e-10) || (bad[i] <= bad[best] * (1 + 1e-10) && p[i] < p[best]))
+          best = i;
+      if (bad[best] == infinity) {
+        if (fresh) return;
+        for (std::size_t i = 0; i < p.size(); ++i)
+          bad[i] = quality(i);
+        fresh = true;
+        continue;
+      }
+      const std::size_t n = p.size();
+      const Index a = p[(best + n - 1) % n], c = p[(best + 1) % n];
+      out.push_back({a, p[best], c});
+      used_.insert(link(a, c));
+      p.erase(p.begin() + static_cast<long>(best));
+      bad.erase(bad.begin() + static_cast<long>(best));
+      bad[best % p.size()] = quality(best % p.size());
+      bad[(best + p.size() - 1) % p.size()] = quality((best + p.size() - 1) % p.size());
+      fresh = false;
+    }
+  }
+
+  /// Triangulation of least total badness (dynamic programming over sub-polygons).
+  void optimal_triangulation(const Polygon& p, std::vector<std::array<Index, 3>>& out) const {
+    const std::size_t n = p.size();
+    if (n < 3) return;
+    std::vector<double> cost(n * n, 0.0);
+    std::vector<std::size_t> apex(n * n, 0);
+    for (std::size_t span = 2; span < n; ++span)
+      for (std::size_t i = 0; i + span < n; ++i) {
+        const std::size_t j = i + span;
+        double best = infinity;
+        std::size_t best_k = 0;
+        const bool whole = span == n - 1;
+        if (whole || allowed(p[i], p[j]))
+          for (std::size_t k = i + 1; k < j; ++k) {
+            if (p[k] == p[i] || p[k] == p[j]) continue;
+            const double c = cost[i * n + k] + cost[k * n + j] + badness(p[i], p[k], p[j]);
+            if (c < best * (1 - 1e-10) ||
+                (c <= best * (1 + 1e-10) && c < infinity && best_k > 0 && p[k] < p[best_k])) {
+              best = c;
+              best_k = k;
+            }
+          }
+        cost[i * n + j] = best;
+        apex[i * n + j] = best_k;
+      }
+    if (cost[n - 1] == infinity) throw ComputationError("a cut triangle could not be divided into pieces");
+    std::vector<std::pair<std::size_t, std::size_t>> stack{{0, n - 1}};
+    while (!stack.empty()) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      if (j - i < 2) continue;
+      const std::size_t k = apex[i * n + j];
+      out.push_back({p[i], p[k], p[j]});
+      stack.push_back({i, k});
+      stack.push_back({k, j});
+    }
+  }
+
+  const TriangleCut& cut_;
+  std::vector<NodeId> ids_;
+  std::vector<Vec2> at_;
+  std::vector<int> edges_of_;                   ///< bit k: the node lies on edge k
+  std::vector<std::vector<Index>> neighbours_;  ///< along segments
+  Polygon rim_;
+  std::set<Link> used_;  ///< edges that must not come a second time as a diagonal
+};
+
+}  // namespace
+
+std::vector<std::array<NodeId, 3>> retriangulate(const IdVector<NodeId, Vec3>& positions,
+                                                 const TriangleCut& cut) {
+  return LocalTriangle(positions, cut).pieces();
+}
+
+}  // namespace conchoid

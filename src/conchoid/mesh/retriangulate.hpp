@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// A triangle with nodes on its edges and inside it, and the curves that must become edges of its pieces.
+struct TriangleCut {
+  std::array<NodeId, 3> corners;  ///< ascending ids
+  std::array<std::vector<NodeId>, 3>
+      on_edge;                 ///< nodes on edge (corner k, corner k+1), in that direction, corners left out
+  std::vector<Edge> segments;  ///< each once; they meet only in nodes
+};
+
+/// Pieces of the triangle, corners in the sense of `cut.corners`: its triangulation with exactly the given
+/// nodes, containing all segments.
+///
+/// Which piece touches which follows from the order of the nodes along the edges and from the segments alone;
+/// coordinates only choose among the triangulations that are possible so, best shape first. Nodes that
+/// coincide or are out of line by round-off therefore cost nothing worse than a piece without area. Ties go
+/// to the lower node id. The result is the same for a rotated, reflected or scaled triangle.
+/// @throws ComputationError if segments cross each other outside nodes
+std::vector<std::array<NodeId, 3>> retriangulate(const IdVector<NodeId, Vec3>& positions,
+                                                 const TriangleCut& cut);
+
+}  // namespace conchoid

@@ -1,0 +1,174 @@
+#include "conchoid/mesh/corefine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "mesh/cut_shapes.hpp"
+
+namespace conchoid {
+namespace {
+
+using namespace shapes;
+
+Vec3 area_of(const IdVector<NodeId, Vec3>& x, const std::array<NodeId, 3>& c) {
+  return 0.5 * area_vector2(x[c[0]], x[c[1]], x[c[2]]);
+}
+
+/// What every cut must fulfil. Returns the area of the sheet inside.
+double check(const CutComplex& cut, const TriMesh& surface, const TriMesh& sheet) {
+  const auto& x = cut.positions;
+  EXPECT_EQ(cut.surface_node_count, surface.node_count());
+  EXPECT_EQ(cut.sheet_node.size(), x.size());
+  EXPECT_EQ(cut.surface_parent.size(), cut.surface.size());
+  EXPECT_EQ(cut.sheet_parent.size(), cut.sheet.size());
+  bool same_bits = true;
+  for (std::size_t i = 0; i < surface.node_count(); ++i)
+    same_bits = same_bits && (x[NodeId(i)].array() == surface.positions[NodeId(i)].array()).all();
+  EXPECT_TRUE(same_bits) << "surface nodes moved";
+
+  // area vectors of the pieces add up to the parents', and no piece is turned over
+  IdVector<TriId, Vec3> sum(surface.triangle_count(), Vec3::Zero());
+  IdVector<TriId, double> absolute(surface.triangle_count(), 0.0);
+  for (std::size_t p = 0; p < cut.surface.size(); ++p) {
+    const Vec3 a = area_of(x, cut.surface[TriId(p)]);
+    sum[cut.surface_parent[p]] += a;
+    absolute[cut.surface_parent[p]] += a.norm();
+  }
+  double scale = 0;
+  for (const Vec3& p : surface.positions)
+    scale = std::max(scale, p.cwiseAbs().maxCoeff());
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+    const Vec3 parent = area_vector(surface, TriId(t));
+    const double size = std::sqrt(parent.norm());
+    EXPECT_LT((sum[TriId(t)] - parent).norm(), 1e-13 * (size + scale) * size) << "surface triangle " << t;
+    EXPECT_LT(absolute[TriId(t)] - parent.norm(), 1e-12 * (size + scale) * size) << "surface triangle " << t;
+  }
+
+  // edges
+  std::map<Edge, int> in_surface, in_sheet;
+  std::set<std::pair<NodeId, NodeId>> directed;
+  for (const auto& c : cut.surface)
+    for (int k = 0; k < 3; ++k) {
+      ++in_surface[Edge(c[k], c[(k + 1) % 3])];
+      EXPECT_TRUE(directed.insert({c[k], c[(k + 1) % 3]}).second) << "an edge is used twice in one direction";
+    }
+  for (const auto& [edge, uses] : in_surface)
+    EXPECT_EQ(uses, 2);
+  std::set<std::pair<NodeId, NodeId>> sheet_directed;
+  for (const auto& c : cut.sheet)
+    for (int k = 0; k < 3; ++k) {
+      ++in_sheet[Edge(c[k], c[(k + 1) % 3])];
+      EXPECT_TRUE(sheet_directed.insert({c[k], c[(k + 1) % 3]}).second);
+    }
+  EXPECT_TRUE(std::is_sorted(cut.mouth.begin(), cut.mouth.end()));
+  EXPECT_EQ(std::adjacent_find(cut.mouth.begin(), cut.mouth.end()), cut.mouth.end());
+  for (const Edge& e : cut.mouth) {
+    EXPECT_EQ(in_surface[e], 2);
+    EXPECT_EQ(in_sheet[e], 1);
+  }
+  std::set<NodeId> surface_nodes;
+  for (const auto& c : cut.surface)
+    surface_nodes.insert(c.begin(), c.end());
+  for (const auto& [edge, uses] : in_sheet)
+    if (!std::binary_search(cut.mouth.begin(), cut.mouth.end(), edge)) {
+      EXPECT_FALSE(in_surface.contains(edge));
+    }
+
+  double area = 0;
+  for (const auto& c : cut.sheet)
+    area += area_of(x, c).norm();
+  (void)sheet;
+  return area;
+}
+
+/// Area of the polygon where the plane n·x = d meets the cube [−½, ½]³: Sutherland-Hodgman clipping of a
+/// large square.
+double section_area(const Vec3& n, double d) {
+  Vec3 u = std::abs(n.x()) < 0.6 ? cross(n, Vec3(1, 0, 0)) : cross(n, Vec3(0, 1, 0));
+  u /= u.norm();
+  const Vec3 v = cross(n, u), o = d * n;
+  std::vector<Vec3> polygon{o - 9 * u - 9 * v, o + 9 * u - 9 * v, o + 9 * u + 9 * v, o - 9 * u + 9 * v};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      std::vector<Vec3> next;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double fa = 0.5 - side * a[axis], fb = 0.5 - side * b[axis];
+        if (fa >= 0) next.push_back(a);
+        if ((fa >= 0) != (fb >= 0)) next.push_back(a + fa / (fa - fb) * (b - a));
+      }
+      polygon = next;
+    }
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    sum += 0.5 * area_vector2(polygon[0], polygon[i], polygon[i + 1]);
+  return sum.norm();
+}
+
+TEST(Corefine, RandomPlanesThroughTheCubeHaveTheAreaOfTheClippedPlane) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int seed = 0; seed < 200; ++seed) {
+    const Mat3 r = random_rotation(random);
+    const double d = 0.7 * uniform(random);
+    const int n = 1 + seed % 5, m = 1 + seed % 7;
+    const TriMesh body = cube(n);
+    const TriMesh plane = sheet(-1.5, 1.5, -1.6, 1.4, m, m + 1, [&](double u, double v) {
+      return Vec3(u * r.col(0) + v * r.col(1) + d * r.col(2));
+    });
+    const CutComplex cut = corefine(body, plane);
+    EXPECT_NEAR(check(cut, body, plane), section_area(r.col(2), d), 1e-12) << "seed " << seed;
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Corefine, PlanesThroughMeshNodesAndFaces) {
+  for (int n = 1; n <= 6; ++n)
+    for (int k = 0; k <= n; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double reach : {0.5, 0.75}) {
+          const double d = -0.5 + double(k) / n;
+          const TriMesh body = cube(n);
+          const TriMesh plane = sheet(-reach, reach, -reach, reach, n, n, [&](double u, double v) {
+            Vec3 x;
+            x[axis] = d;
+            x[(axis + 1) % 3] = u;
+            x[(axis + 2) % 3] = v;
+            return x;
+          });
+          const CutComplex cut = corefine(body, plane);
+          const double area = check(cut, body, plane);
+          EXPECT_NEAR(area, k > 0 && k < n ? 1.0 : std::round(area), 1e-12);
+          if (HasFailure()) return;
+        }
+}
+
+TEST(Corefine, RandomCurvedSheetsInTheSphere) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t mouths = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    const Mat3 r = random_rotation(random);
+    const double a = 0.4 * uniform(random), b = 0.4 * uniform(random), d = 0.5 * uniform(random),
+                 size = 0.5 + 0.8 * std::abs(uniform(random));
+    const int n = 2 + seed % 17;
+    const TriMesh body = icosphere(seed % 4);
+    const TriMesh wavy = sheet(-size, size, -size, size, n, n, [&](double u, double v) {
+      return Vec3(r * Vec3(u, v, d + a * std::sin(3 * u) * std::cos(2 * v) + b * u * v));
+    });
+    const CutComplex cut = corefine(body, wavy);
+    check(cut, body, wavy);
+    mouths += cut.mouth.size();
+    for (const auto& c : cut.sheet)
+      EXPECT_LT(((cut.positions[c[0]] + cut.positions[c[1]] + cut.positions[c[2]]) / 3.0).norm(), 1.0);
+    if (HasFailure()) FAIL() << "seed " << seed;
+  }
+  EXPECT_GT(mouths, 1000u);
+}
+
+}  // namespace
+}  // namespace conchoid
