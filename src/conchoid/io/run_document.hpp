@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "conchoid/surface/fragments.hpp"
+
+namespace conchoid {
+
+/// One setting of a run as it took effect, "section.key" as in the scene.
+struct RunSetting {
+  std::string name;
+  std::variant<bool, std::int64_t, double, std::string> value;
+};
+
+/// What one frame did and cost [s].
+struct FrameRecord {
+  int frame = 0;
+  std::string source;               ///< who gave the opening: "bem", "forest", "steady", …
+  std::size_t crack_triangles = 0;  ///< BEM crack triangles after the frame
+  std::size_t front_nodes = 0;
+  double max_K_eff = 0;  ///< largest effective intensity along the fronts [Pa √m]
+  double opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
+};
+
+/// What run.json and --json say about a fragment.
+struct FragmentRecord {
+  double volume = 0;                   ///< [m³]
+  double mass = 0;                     ///< [kg]
+  Vec3 center_of_mass = Vec3::Zero();  ///< [m]
+  Mat3 inertia = Mat3::Zero();         ///< [kg m²]
+  bool watertight = false;
+  std::size_t triangles = 0;
+  double fracture_area = 0;  ///< [m²]
+};
+FragmentRecord fragment_record(const Fragment& fragment);
+
+/// Everything a run reports: the content of run.json, and of `run --json`.
+struct RunDocument {
+  std::string scene_file, scene_text;
+  std::string method;  ///< "bem", "forest", "steady", "stress", "hybrid"
+  std::string stop;    ///< "arrested", "separated", "frame-limit", …
+  int frames = 0;
+  std::size_t initial_triangles = 0, final_triangles = 0;
+  double total_seconds = 0, opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
+  double opening_seconds_per_frame = 0;
+  std::optional<Box> body;  ///< the body's bounding box; none for the infinite body
+  double body_volume = 0;   ///< [m³]
+  std::vector<RunSetting> settings;
+  std::vector<RunSetting> versions;  ///< conchoid, compiler, libraries
+  std::vector<std::string> warnings;
+  std::vector<FrameRecord> timings;
+  std::vector<FragmentRecord> fragments;
+  std::string hash;  ///< of the result: same inputs, same hash
+};
+
+enum class RunJson { report, document };
+/// One JSON object. `report`: the keys of `run --json`. `document`: these and scene, settings, versions,
+/// timings (run.json). Numbers that are not finite become null.
+std::string run_json(const RunDocument& document, RunJson extent);
+
+/// Reads run.json. @param path  the file. Throws InputError for a foreign, damaged or newer file.
+RunDocument read_run_json(const std::filesystem::path& path);
+
+}  // namespace conchoid
