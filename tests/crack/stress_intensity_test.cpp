@@ -49,6 +49,7 @@ TriMesh disc_with_thin_strip(double a, int rings, double thin) {
 }
 
 void expect_uniform(const TriMesh& mesh, double a, SifMethod method, double tolerance) {
+  SCOPED_TRACE(mesh.triangle_count());
   const auto fronts = find_fronts(mesh, {});
   const auto K = stress_intensities(mesh, fronts[0], penny_opening(mesh, a, 1e6, 0), kGlass, {method});
   const double exact = exact_tension_intensity(a, 1e6);

@@ -22,15 +22,35 @@ double sagitta(const FrontFrame& a, const FrontFrame& b, double length, double s
   return 0.5 * turn * length * s * (1 - s);
 }
 
-FrontFoot foot_on_edge(const TriMesh& crack, const Front& front, std::size_t edge, const Vec3& x) {
+/// Foot of x on one front edge: where x lies in the plane across the interpolated tangent, so that feet move
+/// smoothly from edge to edge. Where no point of the edge has x abreast (beyond open ends, behind sharp
+/// corners) the closest point of the chord.
+struct EdgeFoot {
+  double fraction = 0;
+  double distance = 0;
+  bool abreast = false;
+};
+
+EdgeFoot foot_on_edge(const TriMesh& crack, const Front& front, std::size_t edge, const Vec3& x) {
   const std::size_t next = next_index(edge, front.nodes.size(), front.closed);
   const Vec3& a = crack.positions[front.nodes[edge]];
   const Vec3& b = crack.positions[front.nodes[next]];
-  FrontFoot foot;
-  foot.edge = edge;
-  foot.fraction = fraction_on_segment(a, b, x);
-  const Vec3 on_chord = (1 - foot.fraction) * a + foot.fraction * b;
-  foot.distance = (x - on_chord).norm();
+  const auto ahead = [&](double s) {
+    return (x - (1 - s) * a - s * b).dot((1 - s) * front.frames[edge].e3 + s * front.frames[next].e3);
+  };
+  EdgeFoot foot;
+  foot.abreast = ahead(0) >= 0 && ahead(1) <= 0;
+  if (foot.abreast) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 40; ++i) {
+      const double s = 0.5 * (low + high);
+      (ahead(s) >= 0 ? low : high) = s;
+    }
+    foot.fraction = 0.5 * (low + high);
+  } else {
+    foot.fraction = fraction_on_segment(a, b, x);
+  }
+  foot.distance = (x - (1 - foot.fraction) * a - foot.fraction * b).norm();
   return foot;
 }
 
@@ -40,8 +60,9 @@ FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, 
                        std::size_t reach) {
   const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
   const std::size_t count = std::min(edges, 2 * reach + 1);
-  FrontFoot best;
+  EdgeFoot best;
   best.distance = std::numeric_limits<double>::infinity();
+  std::size_t best_edge = first_edge < edges ? first_edge : 0;
   for (std::size_t k = 0; k < count; ++k) {
     std::size_t edge = first_edge + k;
     if (front.closed) {
@@ -51,13 +72,16 @@ FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, 
     } else {
       edge -= reach;
     }
-    const FrontFoot foot = foot_on_edge(crack, front, edge, x);
-    if (foot.distance < best.distance) best = foot;
+    const EdgeFoot foot = foot_on_edge(crack, front, edge, x);
+    if (foot.abreast != best.abreast ? foot.abreast : foot.distance < best.distance) {
+      best = foot;
+      best_edge = edge;
+    }
   }
-  const std::size_t next = next_index(best.edge, n, front.closed);
-  const double length = (crack.positions[front.nodes[next]] - crack.positions[front.nodes[best.edge]]).norm();
-  best.distance += sagitta(front.frames[best.edge], front.frames[next], length, best.fraction);
-  return best;
+  const std::size_t next = next_index(best_edge, n, front.closed);
+  const double length = (crack.positions[front.nodes[next]] - crack.positions[front.nodes[best_edge]]).norm();
+  const double outside = sagitta(front.frames[best_edge], front.frames[next], length, best.fraction);
+  return {best_edge, best.fraction, best.distance + outside};
 }
 
 FrontFrame frame_at(const Front& front, const FrontFoot& foot) {

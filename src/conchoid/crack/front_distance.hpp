@@ -12,7 +12,7 @@ struct FrontFoot {
       0;  ///< r [m] from the point to the true front: to the chord, plus the chord's sagitta at the foot
 };
 
-/// Closest point on the front edges [first_edge − reach, first_edge + reach] (clipped at open ends) to x.
+/// Foot of x on the front edges [first_edge − reach, first_edge + reach] (clipped at open ends) to x.
 /// A front edge is a chord of the true, smooth front, which lies outside it by κ s (L − s)/2 with the
 /// curvature κ taken from the tangents at its two ends.
 FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, std::size_t first_edge,

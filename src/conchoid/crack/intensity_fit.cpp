@@ -17,8 +17,8 @@ constexpr double kReachBehind = 2.6;  ///< … and the samples within this many 
 constexpr double kFullWeightFrom =
     0.4;                      ///< rows nearer than this (a thin last strip) count less: (r / 0.4 h)²
 constexpr int kMostRows = 6;  ///< rows of nodes searched: thin strips take several to reach 0.4 h
-constexpr double kRidge =
-    1e-4;  ///< keeps A', A" and B at 0 where the samples cannot tell them (one row of nodes)
+/// Keeps A', A" and B at 0 where the samples cannot tell them; A" first, as K varies slowly along a front.
+constexpr double kRidge[3] = {1e-4, 1e-2, 1e-4};
 
 double mean_edge_length(const TriMesh& crack, const Front& front, std::size_t i) {
   const std::size_t n = front.nodes.size();
@@ -176,7 +176,7 @@ bool fit_rate(const std::vector<OpeningSample>& samples, Vec3& rate) {
     right += w * row * sample.rate.transpose();
   }
   for (int k = 1; k < 4; ++k)
-    normal(k, k) += kRidge;
+    normal(k, k) += kRidge[k - 1];
   rate = normal.ldlt().solve(right).row(0).transpose();
   return rate.allFinite();
 }
