@@ -13,8 +13,8 @@ struct Panel {
   std::array<NodeId, 3> vertex;  ///< two panels share a vertex exactly when they share its id
   Vec3 normal;                   ///< unit
   double area;
-  Vec3 center;                   ///< centroid
-  double radius;                 ///< of the sphere around `center` that holds the panel
+  Vec3 center;    ///< centroid
+  double radius;  ///< of the sphere around `center` that holds the panel
 };
 Panel make_panel(const Triangle& x, const std::array<NodeId, 3>& vertex);
 
@@ -29,8 +29,9 @@ struct SingleLayerPair {
 /// ∂/∂n_y (1/R) = n_y·(x−y)/R³. Principal value: 0 when X and Y are coplanar.
 using DoubleLayerPair = std::array<double, 3>;
 
-/// Integrals over pairs of flat panels in any position: equal, sharing an edge or a vertex, close to, touching or
-/// crossing each other without a shared vertex, or far apart. The case is chosen from vertex ids and distance.
+/// Integrals over pairs of flat panels in any position: equal, sharing an edge or a vertex, close to,
+/// touching or crossing each other without a shared vertex, or far apart. The case is chosen from vertex ids
+/// and distance.
 class PairIntegrator {
  public:
   /// @param tolerance  wanted relative error of a pair's integrals, 1e-3 … 1e-11

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "conchoid/quadrature/pair_integrals.hpp"
+#include "conchoid/quadrature/potentials.hpp"
+
+/// The cases a pair of panels falls into, one file each. All but the far one rest on one identity. Let c be a
+/// point of both planes. The kernel k(x−y), homogeneous of degree q, is homogeneous about (c, c) in the four
+/// variables of X×Y, so div(k·(x−c, y−c)) = (4+q) k, and the integral moves to the boundary of X×Y:
+///
+///   (4+q) ∫_X∫_Y k = Σ_{edges e of X} d_e ∫_e ∫_Y k  +  Σ_{edges e of Y} d_e ∫_e ∫_X k, docs/theory.md (Q5)
+///
+/// d_e = outward distance of edge e from c. The inner integrals are the closed forms of potentials.hpp; edges
+/// that contain c drop out; what remains are integrals along edges, and where those still meet the other
+/// panel in a point the same step is taken again. This is the radial integration of Sauter & Schwab's
+/// regularising coordinates, carried to closed forms (Lenoir & Salles, SIAM J. Sci. Comput. 34, 2012). No
+/// thinness of the panels and no dihedral angle makes it inexact.
+namespace conchoid {
+
+/// A pair as the touching cases see it: X = (x0 x1 x2) and Y = (y0 y1 y2) turned so that shared corners come
+/// first (x0 = y0; common edge: also x1 = y1), and moved so that x0 is the origin.
+struct TouchingPair {
+  Triangle x, y;
+  Vec3 normal_x, normal_y;
+  std::array<int, 3> y_corner;  ///< which corner of the original panel y[i] is
+  double noise;                 ///< heights that are rounding
+  double diameter;              ///< no two points of the pair are farther apart
+};
+TouchingPair touching_pair(const Panel& x, const Panel& y);
+
+struct SharedCorners {
+  int count = 0;
+  std::array<int, 3> in_x{}, in_y{};
+};
+/// Corners with the same valid id. Invalid ids are never shared.
+SharedCorners shared_corners(const Panel& x, const Panel& y);
+
+/// Heights that are rounding of the coordinates' own plane: 0 as far as the side of a plane is concerned.
+double plane_noise(const Panel& x, const Panel& y);
+/// Every corner of X lies in the plane of Y up to `noise`.
+bool coplanar(const Triangle& x, const PanelPotential& y, double noise);
+
+Family coincident_single_layer(const Panel& x);
+
+Family common_edge_single_layer(const TouchingPair& pair, double tolerance);
+Vec3 common_edge_double_layer(const TouchingPair& pair, double tolerance);
+
+Family common_vertex_single_layer(const TouchingPair& pair, double tolerance);
+Vec3 common_vertex_double_layer(const TouchingPair& pair, double tolerance);
+
+Family near_single_layer(const Panel& x, const Panel& y, double tolerance);
+Vec3 near_double_layer(const Panel& x, const Panel& y, double tolerance);
+
+/// Degrees of the triangle rules for X and Y that reach the tolerance; 0: none does.
+struct FarDegrees {
+  int x = 0, y = 0;
+  bool enough() const { return x > 0 && y > 0; }
+};
+FarDegrees far_degrees(const Panel& x, const Panel& y, double tolerance);
+Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees);
+Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees);
+
+}  // namespace conchoid

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "conchoid/quadrature/potentials.hpp"
+
+namespace conchoid {
+
+/// A triangle one edge of which (corner 0 to corner 1) the integrand may be steep at.
+struct GradedPiece {
+  Triangle corners;
+  double double_area;
+};
+
+/// Cuts `outer` along the edge lines of `source` seen down its normal, so that the potentials of a source at
+/// a tiny gap are smooth inside each piece and steep only at its first edge. The pieces cover the triangle.
+std::vector<GradedPiece> cut_along_edges(const Triangle& outer, const PanelPotential& source);
+
+/// Nodes and weights of a composite Gauss rule on [0, 1] whose intervals shrink by 4 toward 0 (and by
+/// symmetry toward 1).
+struct GradedNode {
+  double t, weight;
+};
+std::vector<GradedNode> graded_toward_start(int levels, int order);
+std::vector<GradedNode> graded_toward_ends(int levels, int order);
+
+/// ∫ over `outer` of a potential of `source`, a panel nearly parallel at a gap far below its size.
+template <int N, class F>
+Eigen::Matrix<double, N, 1> integrate_graded(const Triangle& outer, const PanelPotential& source,
+                                             double tolerance, const F& potential) {
+  const double gap = std::max({std::abs(source.height(outer[0])), std::abs(source.height(outer[1])),
+                               std::abs(source.height(outer[2]))});
+  const double size = std::max({source.edge_length(0), source.edge_length(1), source.edge_length(2)});
+  const int needed = static_cast<int>(std::ceil(std::log2(size / std::max(gap, size * 1e-12)) / 2)) + 2;
+  const int useful = static_cast<int>(std::ceil(-std::log2(tolerance) / 2)) + 1;
+  const int levels = std::clamp(needed, 2, useful);
+  const int order = std::clamp(static_cast<int>(std::ceil(-std::log10(tolerance) * 0.6)) + 3, 4, 10);
+  const std::vector<GradedNode> across = graded_toward_start(levels, order);
+  std::vector<std::vector<GradedNode>> along;
+  for (int k = 1; k <= levels; ++k)
+    along.push_back(graded_toward_ends(k, order));
+
+  Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
+  for (const GradedPiece& piece : cut_along_edges(outer, source)) {
+    for (const GradedNode& a : across) {
+      // At depth a.t the ends of the edge are felt on the scale of a.t itself.
+      const int k = std::clamp(static_cast<int>(std::ceil(-std::log2(a.t) / 2)), 1, levels);
+      Eigen::Matrix<double, N, 1> row = Eigen::Matrix<double, N, 1>::Zero();
+      for (const GradedNode& b : along[static_cast<std::size_t>(k - 1)]) {
+        const Vec3 base = (1 - b.t) * piece.corners[0] + b.t * piece.corners[1];
+        row += b.weight * potential((1 - a.t) * base + a.t * piece.corners[2]);
+      }
+      sum += (a.weight * (1 - a.t) * piece.double_area) * row;
+    }
+  }
+  return sum;
+}
+
+}  // namespace conchoid

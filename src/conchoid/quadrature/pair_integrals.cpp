@@ -1,0 +1,194 @@
+#include "conchoid/quadrature/pair_integrals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/quadrature/cases.hpp"
+#include "conchoid/quadrature/triangle_rules.hpp"
+
+namespace conchoid {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double largest_coordinate(const Triangle& t) {
+  return std::max({t[0].cwiseAbs().maxCoeff(), t[1].cwiseAbs().maxCoeff(), t[2].cwiseAbs().maxCoeff()});
+}
+
+/// Rounding of a panel's normal times its size: large for thin panels.
+double normal_noise(const Panel& panel) {
+  return 2 * epsilon * panel.radius * panel.radius * panel.radius / panel.area;
+}
+
+/// Order of a pair that does not depend on which panel was named first: by ids, where these are equal by
+/// coordinates.
+bool in_order(const Panel& x, const Panel& y) {
+  if (x.vertex != y.vertex) return x.vertex < y.vertex;
+  for (int i = 0; i < 3; ++i) {
+    const auto a = std::make_tuple(x.x[i].x(), x.x[i].y(), x.x[i].z());
+    const auto b = std::make_tuple(y.x[i].x(), y.x[i].y(), y.x[i].z());
+    if (a != b) return a < b;
+  }
+  return true;
+}
+
+SingleLayerPair to_pair(const Family& f) {
+  return {f[0], {f[1], f[2], f[3], f[4], f[5], f[6]}};
+}
+
+DoubleLayerPair to_pair(const Vec3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
+  switch (shared_corners(x, y).count) {
+    case 3:
+      return coincident_single_layer(x);
+    case 2:
+      return common_edge_single_layer(touching_pair(x, y), tolerance);
+    case 1:
+      return common_vertex_single_layer(touching_pair(x, y), tolerance);
+    default:
+      break;
+  }
+  const FarDegrees degrees = far_degrees(x, y, tolerance);
+  return degrees.enough() ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
+}
+
+Vec3 touching_double_layer(const TouchingPair& pair, int shared, double tolerance) {
+  if (coplanar(pair.x, PanelPotential(pair.y, pair.normal_y, pair.noise), pair.noise)) return Vec3::Zero();
+  const Vec3 turned =
+      shared == 2 ? common_edge_double_layer(pair, tolerance) : common_vertex_double_layer(pair, tolerance);
+  Vec3 result;
+  for (int i = 0; i < 3; ++i)
+    result[pair.y_corner[i]] = turned[i];
+  return result;
+}
+
+/// Beyond this many radii a rule of degree 10 is exact to rounding, and the closed forms lose digits to
+/// cancellation.
+constexpr double far_point = 40;
+
+bool is_far(const Vec3& x, const Panel& y) {
+  return (x - y.center).norm() > far_point * y.radius;
+}
+
+PanelPotential potential_of(const Vec3& x, const Panel& y) {
+  const double size = std::max(x.cwiseAbs().maxCoeff(), largest_coordinate(y.x));
+  return PanelPotential(y.x, y.normal, 8 * epsilon * size + normal_noise(y));
+}
+
+}  // namespace
+
+Panel make_panel(const Triangle& x, const std::array<NodeId, 3>& vertex) {
+  Panel panel;
+  panel.x = x;
+  panel.vertex = vertex;
+  const Vec3 area_vector = area_vector2(x[0], x[1], x[2]);
+  const double double_area = area_vector.norm();
+  panel.normal = area_vector / double_area;
+  panel.area = 0.5 * double_area;
+  panel.center = (x[0] + x[1] + x[2]) / 3;
+  panel.radius =
+      std::max({(x[0] - panel.center).norm(), (x[1] - panel.center).norm(), (x[2] - panel.center).norm()});
+  return panel;
+}
+
+SharedCorners shared_corners(const Panel& x, const Panel& y) {
+  SharedCorners shared;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!x.vertex[i].valid() || x.vertex[i] != y.vertex[j]) continue;
+      shared.in_x[shared.count] = i;
+      shared.in_y[shared.count] = j;
+      ++shared.count;
+      break;
+    }
+  }
+  return shared;
+}
+
+double plane_noise(const Panel& x, const Panel& y) {
+  return 8 * epsilon * std::max(largest_coordinate(x.x), largest_coordinate(y.x)) + normal_noise(x) +
+         normal_noise(y);
+}
+
+bool coplanar(const Triangle& x, const PanelPotential& y, double noise) {
+  for (const Vec3& corner : x) {
+    if (std::abs(y.height(corner)) > noise) return false;
+  }
+  return true;
+}
+
+TouchingPair touching_pair(const Panel& x, const Panel& y) {
+  const SharedCorners shared = shared_corners(x, y);
+  TouchingPair pair;
+  pair.normal_x = x.normal;
+  pair.normal_y = y.normal;
+  pair.noise = plane_noise(x, y);
+  pair.diameter = (x.center - y.center).norm() + x.radius + y.radius;
+  std::array<int, 3> in_x, in_y;
+  if (shared.count == 2) {
+    in_x = {shared.in_x[0], shared.in_x[1], 3 - shared.in_x[0] - shared.in_x[1]};
+    in_y = {shared.in_y[0], shared.in_y[1], 3 - shared.in_y[0] - shared.in_y[1]};
+  } else {
+    in_x = {shared.in_x[0], (shared.in_x[0] + 1) % 3, (shared.in_x[0] + 2) % 3};
+    in_y = {shared.in_y[0], (shared.in_y[0] + 1) % 3, (shared.in_y[0] + 2) % 3};
+  }
+  const Vec3 origin = x.x[in_x[0]];
+  for (int i = 0; i < 3; ++i) {
+    pair.x[i] = x.x[in_x[i]] - origin;
+    pair.y[i] = y.x[in_y[i]] - origin;
+  }
+  pair.y_corner = in_y;
+  return pair;
+}
+
+PairIntegrator::PairIntegrator(double tolerance) : tolerance_(tolerance) {
+  if (!(tolerance >= 1e-11 && tolerance <= 1e-3)) {
+    throw InputError("tolerance of the pair integrals must lie between 1e-11 and 1e-3");
+  }
+}
+
+SingleLayerPair PairIntegrator::single_layer(const Panel& x, const Panel& y) const {
+  return to_pair(in_order(x, y) ? ordered_single_layer(x, y, tolerance_)
+                                : ordered_single_layer(y, x, tolerance_));
+}
+
+DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) const {
+  const int shared = shared_corners(x, y).count;
+  if (shared == 3) return {};
+  if (shared > 0) return to_pair(touching_double_layer(touching_pair(x, y), shared, tolerance_));
+  const FarDegrees degrees = far_degrees(x, y, tolerance_);
+  return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
+}
+
+SingleLayerPair single_layer_potential(const Vec3& x, const Panel& y) {
+  if (!is_far(x, y)) return to_pair(potential_of(x, y).single_layer(x));
+  Family sum = Family::Zero();
+  for (const RulePoint& p : triangle_rule(10).points) {
+    const Vec3 r = x - rule_point(y.x, p);
+    const double square = r.squaredNorm(), value = p.weight * y.area / std::sqrt(square);
+    sum[0] += value;
+    sum.tail<6>() += symmetric_product(r, r, value / square);
+  }
+  return to_pair(sum);
+}
+
+DoubleLayerPair double_layer_potential(const Vec3& x, const Panel& y) {
+  if (!is_far(x, y)) return to_pair(potential_of(x, y).double_layer(x));
+  Vec3 sum = Vec3::Zero();
+  for (const RulePoint& p : triangle_rule(10).points) {
+    const Vec3 r = x - rule_point(y.x, p);
+    const double square = r.squaredNorm();
+    const double value = p.weight * y.area * y.normal.dot(x - y.x[0]) / (square * std::sqrt(square));
+    sum += value * Vec3(p.l0, p.l1, p.l2);
+  }
+  return to_pair(sum);
+}
+
+}  // namespace conchoid

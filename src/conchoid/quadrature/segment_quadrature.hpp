@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace conchoid {
+
+/// Nodes in [0, 1) of the symmetric 15-point Kronrod rule on [−1, 1] with its weights, and the weights of the
+/// embedded 7-point Gauss rule (0 where it has no node).                                   Piessens et al.,
+/// QUADPACK, 1983
+struct KronrodRule {
+  static constexpr std::array<double, 8> node = {
+      0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
+      0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
+      0.586087235467691130294144691693013, 0.405845151377397166906606412076961,
+      0.207784955007898467600689403773245, 0.0};
+  static constexpr std::array<double, 8> weight = {
+      0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
+      0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
+      0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+      0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
+  static constexpr std::array<double, 8> gauss_weight = {
+      0, 0.129484966168869693270611432679082, 0, 0.279705391489276667901467771423780,
+      0, 0.381830050505118944950369775488975, 0, 0.417959183673469387755102040816327};
+};
+
+/// ∫_a^b f(t) dt of a vector-valued function by bisection with the (7, 15) Gauss–Kronrod pair, each interval
+/// until the two differ by less than `tolerance` (absolute, every component), or by rounding, or is too short
+/// to halve. Kinks, jumps and logarithms inside [a, b] cost bisections, not accuracy; what the caller knows
+/// of them belongs at an end.
+template <int N, class F>
+Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, double tolerance) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  constexpr int max_depth = 46;
+  constexpr int max_intervals = 600;
+  struct Interval {
+    double a, b;
+    int depth;
+  };
+  std::array<Interval, max_depth + 2> stack;
+  int top = 0;
+  stack[top++] = {a, b, 0};
+  Vector sum = Vector::Zero();
+  for (int intervals = 0; top > 0; ++intervals) {
+    const Interval now = stack[--top];
+    const double mid = 0.5 * (now.a + now.b), half = 0.5 * (now.b - now.a);
+    const Vector at_mid = f(mid);
+    Vector kronrod = KronrodRule::weight[7] * at_mid;
+    Vector gauss = KronrodRule::gauss_weight[7] * at_mid;
+    double size = kronrod.cwiseAbs().maxCoeff();
+    for (int i = 0; i < 7; ++i) {
+      const double d = half * KronrodRule::node[i];
+      const Vector low = f(mid - d), high = f(mid + d);
+      const Vector both = low + high;
+      kronrod += KronrodRule::weight[i] * both;
+      if (i % 2 == 1) gauss += KronrodRule::gauss_weight[i] * both;
+      size += KronrodRule::weight[i] * (low.cwiseAbs() + high.cwiseAbs()).maxCoeff();
+    }
+    const double error = (kronrod - gauss).cwiseAbs().maxCoeff();
+    const double noise = 50 * std::numeric_limits<double>::epsilon() * size;
+    if (error * half <= tolerance || error <= noise || now.depth >= max_depth || intervals >= max_intervals) {
+      sum += half * kronrod;
+    } else {
+      stack[top++] = {mid, now.b, now.depth + 1};
+      stack[top++] = {now.a, mid, now.depth + 1};
+    }
+  }
+  return sum;
+}
+
+/// The same over [0, 1], broken at the points of `breaks` that lie inside (any order, at most a few).
+template <int N, std::size_t M, class F>
+Eigen::Matrix<double, N, 1> integrate_unit_segment(const F& f, std::array<double, M> breaks,
+                                                   double tolerance) {
+  for (std::size_t i = 1; i < M; ++i) {
+    for (std::size_t j = i; j > 0 && breaks[j] < breaks[j - 1]; --j)
+      std::swap(breaks[j], breaks[j - 1]);
+  }
+  Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
+  double from = 0;
+  for (double b : breaks) {
+    if (!(b > from && b < 1)) continue;
+    sum += integrate_segment<N>(f, from, b, tolerance);
+    from = b;
+  }
+  return sum + integrate_segment<N>(f, from, 1.0, tolerance);
+}
+
+}  // namespace conchoid
