@@ -8,25 +8,29 @@ namespace conchoid {
 
 enum class FaceKind : std::uint8_t { original, fracture };
 
-/// One piece of the broken body: closed, oriented outward. Inertia for density 1 kg/m³ is not kept: multiply by ρ beforehand.
+/// One piece of the broken body: closed, oriented outward. Inertia for density 1 kg/m³ is not kept: multiply
+/// by ρ beforehand.
 struct Fragment {
   TriMesh mesh;
-  std::vector<FaceKind> face_kind;   ///< per triangle
-  std::vector<TriId> source;         ///< per triangle: triangle of the input surface (original) or of the crack sheet (fracture)
-  double volume = 0;                 ///< [m³]
-  double mass = 0;                   ///< [kg]
+  std::vector<FaceKind> face_kind;  ///< per triangle
+  std::vector<TriId> source;  ///< per triangle: triangle of the input surface (original) or of the sheets
+                              ///< (fracture), counted through all sheets in their order
+  double volume = 0;          ///< [m³]
+  double mass = 0;            ///< [kg]
   Vec3 center_of_mass = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();       ///< about the centre of mass [kg m²]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass [kg m²]
   bool watertight = false;
 };
 
 struct FragmentSettings {
-  double density = 1000;             ///< kg/m³
-  double minimum_volume_fraction = 1e-4;  ///< pieces below this share of the body's volume join the neighbour they share most area with
+  double density = 1000;  ///< kg/m³
+  double minimum_volume_fraction =
+      1e-4;  ///< pieces below this share of the body's volume join the neighbour they share most area with
 };
 
-/// Cuts a closed surface by crack sheets (fine meshes; they may stick out of the body and stop at each other) into watertight pieces,
-/// largest first. A sheet, or a part of one, that does not separate leaves a slit: a pair of coincident fracture faces, tagged and visible.
+/// Cuts a closed surface by crack sheets (fine meshes; they may stick out of the body and stop at each other)
+/// into watertight pieces, largest first. A sheet, or a part of one, that does not separate leaves a slit: a
+/// pair of coincident fracture faces, tagged and visible.
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
                                          const FragmentSettings& settings);
 

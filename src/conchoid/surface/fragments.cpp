@@ -1,0 +1,157 @@
+#include "conchoid/surface/fragments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/surface/mass_properties.hpp"
+#include "conchoid/surface/separation.hpp"
+
+namespace conchoid {
+namespace {
+
+/// A piece between two cuts: closed mesh and where its triangles come from.
+struct Piece {
+  TriMesh mesh;
+  std::vector<FaceKind> kind;
+  std::vector<TriId> source;
+};
+
+/// Which sheet faces to leave out so that no piece is smaller than `minimum_volume`: the smallest piece joins
+/// the neighbour it shares the largest area with, again and again.
+std::vector<bool> faces_between_slivers(const CutComplex& cut, const Shells& shells, double minimum_volume) {
+  std::vector<bool> left_out(cut.sheet.size(), false);
+  std::vector<double> volume = shells.volume;
+  std::vector<std::size_t> joined(volume.size());
+  for (std::size_t s = 0; s < joined.size(); ++s)
+    joined[s] = s;
+  std::vector<bool> stuck(volume.size(), false);
+  for (;;) {
+    std::size_t sliver = volume.size();
+    for (std::size_t s = 0; s < volume.size(); ++s)
+      if (joined[s] == s && !stuck[s] && volume[s] < minimum_volume &&
+          (sliver == volume.size() || volume[s] < volume[sliver]))
+        sliver = s;
+    if (sliver == volume.size()) return left_out;
+    std::map<std::size_t, double> shared;
+    const auto neighbour = [&](std::size_t s) {
+      const std::size_t a = joined[shells.solid[shells.surface_faces + s]];
+      const std::size_t b = joined[shells.solid[shells.surface_faces + shells.sheet_faces + s]];
+      return a == b ? sliver : a == sliver ? b : b == sliver ? a : sliver;
+    };
+    for (std::size_t s = 0; s < cut.sheet.size(); ++s)
+      if (const std::size_t other = neighbour(s); other != sliver) {
+        const auto& c = cut.sheet[TriId(s)];
+        shared[other] += area_vector2(cut.positions[c[0]], cut.positions[c[1]], cut.positions[c[2]]).norm();
+      }
+    if (shared.empty()) {
+      stuck[sliver] = true;
+      continue;
+    }
+    const std::size_t into = std::max_element(shared.begin(), shared.end(), [](const auto& x, const auto& y) {
+                               return x.second < y.second;
+                             })->first;
+    for (std::size_t s = 0; s < cut.sheet.size(); ++s)
+      if (neighbour(s) == into) left_out[s] = true;
+    for (std::size_t& j : joined)
+      if (j == sliver) j = into;
+    volume[into] += volume[sliver];
+  }
+}
+
+/// The solids of a glued complex as meshes of their own. Nodes in the order of the complex.
+std::vector<Piece> separate(const CutComplex& cut, const Shells& shells, const Piece& parent,
+                            std::size_t first_sheet_triangle) {
+  std::vector<NodeId> node_of(shells.vertex_count);
+  std::vector<std::int32_t> solid_of(shells.vertex_count);
+  for (std::size_t f = 0; f < shells.corners.size(); ++f)
+    if (shells.present[f])
+      for (int k = 0; k < 3; ++k) {
+        node_of[shells.vertex[f][k]] = shells.corners[f][k];
+        solid_of[shells.vertex[f][k]] = shells.solid[f];
+      }
+  std::vector<std::size_t> order(shells.vertex_count);
+  for (std::size_t v = 0; v < order.size(); ++v)
+    order[v] = v;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t x, std::size_t y) { return node_of[x] < node_of[y]; });
+  std::vector<Piece> pieces(shells.volume.size());
+  std::vector<NodeId> local(shells.vertex_count);
+  for (const std::size_t v : order)
+    local[v] = pieces[solid_of[v]].mesh.positions.add(cut.positions[node_of[v]]);
+  for (std::size_t f = 0; f < shells.corners.size(); ++f) {
+    if (!shells.present[f]) continue;
+    Piece& piece = pieces[shells.solid[f]];
+    const auto& v = shells.vertex[f];
+    piece.mesh.corners.push_back({local[v[0]], local[v[1]], local[v[2]]});
+    if (f < shells.surface_faces) {
+      const std::size_t from = cut.surface_parent[f].index();
+      piece.kind.push_back(parent.kind[from]);
+      piece.source.push_back(parent.source[from]);
+    } else {
+      const TriId from = cut.sheet_parent[(f - shells.surface_faces) % shells.sheet_faces];
+      piece.kind.push_back(FaceKind::fracture);
+      piece.source.emplace_back(first_sheet_triangle + from.index());
+    }
+  }
+  return pieces;
+}
+
+std::vector<Piece> cut_piece(Piece piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
+                             double minimum_volume) {
+  const CutComplex cut = corefine(piece.mesh, sheet);
+  std::vector<Piece> result;
+  if (cut.sheet.empty() && cut.mouth.empty()) {
+    result.push_back(std::move(piece));
+    return result;
+  }
+  Shells shells = glue(cut);
+  const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
+  if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
+  return separate(cut, shells, piece, first_sheet_triangle);
+}
+
+}  // namespace
+
+std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
+                                         const FragmentSettings& settings) {
+  const double body_volume = enclosed_volume(surface);
+  std::vector<Piece> pieces(1);
+  pieces[0].mesh = surface;
+  pieces[0].kind.assign(surface.triangle_count(), FaceKind::original);
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    pieces[0].source.emplace_back(t);
+  std::size_t first_sheet_triangle = 0;
+  for (const TriMesh& sheet : sheets) {
+    std::vector<Piece> next;
+    for (Piece& piece : pieces)
+      for (Piece& part : cut_piece(std::move(piece), sheet, first_sheet_triangle,
+                                   settings.minimum_volume_fraction * body_volume))
+        next.push_back(std::move(part));
+    pieces = std::move(next);
+    first_sheet_triangle += sheet.triangle_count();
+  }
+  std::vector<Fragment> fragments;
+  for (Piece& piece : pieces) {
+    Fragment fragment;
+    const MassProperties m = mass_properties(piece.mesh, settings.density);
+    fragment.watertight = is_watertight(piece.mesh);
+    fragment.mesh = std::move(piece.mesh);
+    fragment.face_kind = std::move(piece.kind);
+    fragment.source = std::move(piece.source);
+    fragment.volume = m.volume;
+    fragment.mass = m.mass;
+    fragment.center_of_mass = m.center_of_mass;
+    fragment.inertia = m.inertia;
+    fragments.push_back(std::move(fragment));
+  }
+  // largest first; pieces equal up to round-off keep their order
+  const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / body_volume); };
+  std::stable_sort(fragments.begin(), fragments.end(),
+                   [&](const Fragment& x, const Fragment& y) { return size(x) > size(y); });
+  return fragments;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,243 @@
+#include "conchoid/surface/separation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "conchoid/core/error.hpp"
+
+namespace conchoid {
+namespace {
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::size_t root(std::size_t i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The smaller root stays: numbering by first member.
+  void join(std::size_t i, std::size_t j) {
+    i = root(i);
+    j = root(j);
+    if (i < j)
+      parent_[j] = i;
+    else
+      parent_[i] = j;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+/// Edge of a face, with its direction there.
+struct HalfEdge {
+  Edge edge;
+  std::size_t face;
+  int corner;
+  bool along;  ///< from edge.a to edge.b
+};
+
+class Gluing {
+ public:
+  Gluing(const CutComplex& cut, const std::vector<bool>& left_out)
+      : cut_(cut),
+        corners_(3 * (cut.surface.size() + 2 * cut.sheet.size())),
+        faces_(cut.surface.size() + 2 * cut.sheet.size()) {
+    collect_faces(left_out);
+  }
+
+  Shells run() {
+    glue_edges();
+    number_vertices();
+    number_solids();
+    return std::move(shells_);
+  }
+
+ private:
+  void collect_faces(const std::vector<bool>& left_out) {
+    shells_.surface_faces = cut_.surface.size();
+    shells_.sheet_faces = cut_.sheet.size();
+    shells_.corners.assign(cut_.surface.begin(), cut_.surface.end());
+    shells_.corners.insert(shells_.corners.end(), cut_.sheet.begin(), cut_.sheet.end());
+    for (auto c : cut_.sheet) {
+      std::swap(c[1], c[2]);
+      shells_.corners.push_back(c);
+    }
+    shells_.present.assign(shells_.corners.size(), true);
+    for (std::size_t s = 0; s < left_out.size(); ++s)
+      if (left_out[s]) {
+        shells_.present[shells_.surface_faces + s] = false;
+        shells_.present[shells_.surface_faces + shells_.sheet_faces + s] = false;
+      }
+  }
+
+  void glue_edges() {
+    std::vector<HalfEdge> halves;
+    halves.reserve(3 * (shells_.surface_faces + shells_.sheet_faces));
+    for (std::size_t f = 0; f < shells_.surface_faces + shells_.sheet_faces; ++f) {
+      if (!shells_.present[f]) continue;
+      const auto& c = shells_.corners[f];
+      for (int k = 0; k < 3; ++k)
+        halves.push_back({Edge(c[k], c[(k + 1) % 3]), f, k, c[k] < c[(k + 1) % 3]});
+    }
+    std::sort(halves.begin(), halves.end(), [](const HalfEdge& x, const HalfEdge& y) {
+      return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
+    });
+    for (std::size_t begin = 0; begin < halves.size();) {
+      std::size_t end = begin + 1;
+      while (end < halves.size() && halves[end].edge == halves[begin].edge)
+        ++end;
+      glue_edge(&halves[begin], end - begin);
+      begin = end;
+    }
+  }
+
+  /// Same edge on the other side of a sheet face: corner order there is 0, 2, 1.
+  HalfEdge turned(const HalfEdge& h) const {
+    constexpr int corner[3] = {2, 1, 0};  // edge (k, k+1) is edge (corner[k], corner[k]+1) of the turned face
+    return {h.edge, shells_.opposite(h.face), corner[h.corner], !h.along};
+  }
+
+  void glue_edge(const HalfEdge* h, std::size_t n) {
+    const std::size_t on_surface = static_cast<std::size_t>(
+        std::count_if(h, h + n, [&](const HalfEdge& x) { return x.face < shells_.surface_faces; }));
+    const bool two = on_surface == 2 && h[0].along != h[1].along;
+    if (on_surface == 0 && n == 1) {
+      glue(h[0], turned(h[0]));
+    } else if (on_surface == 0 && n == 2) {
+      const HalfEdge other = h[1].along != h[0].along ? h[1] : turned(h[1]);
+      glue(h[0], other);
+      glue(turned(h[0]), turned(other));
+    } else if (two && n == 2) {
+      glue(h[0], h[1]);
+    } else if (two && n == 3) {
+      const HalfEdge back = turned(h[2]);
+      for (const HalfEdge& x : {h[0], h[1]})
+        glue(x, x.along != h[2].along ? h[2] : back);
+    } else {
+      throw ComputationError("the cut body is not closed: an edge joins " + std::to_string(on_surface) +
+                             " surface triangles and " + std::to_string(n - on_surface) + " crack triangles");
+    }
+  }
+
+  void glue(const HalfEdge& x, const HalfEdge& y) {
+    faces_.join(x.face, y.face);
+    corners_.join(3 * x.face + x.corner, 3 * y.face + (y.corner + 1) % 3);
+    corners_.join(3 * x.face + (x.corner + 1) % 3, 3 * y.face + y.corner);
+  }
+
+  void number_vertices() {
+    const std::size_t n = shells_.corners.size();
+    std::vector<std::int32_t> id(3 * n, -1);
+    shells_.vertex.assign(n, {-1, -1, -1});
+    std::int32_t count = 0;
+    for (std::size_t f = 0; f < n; ++f) {
+      if (!shells_.present[f]) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        auto& v = id[corners_.root(3 * f + k)];
+        if (v < 0) v = count++;
+        shells_.vertex[f][k] = v;
+      }
+    }
+    shells_.vertex_count = static_cast<std::size_t>(count);
+  }
+
+  double six_volume(std::size_t face, const Vec3& origin) const {
+    const auto& c = shells_.corners[face];
+    return (cut_.positions[c[0]] - origin)
+        .dot(cross(cut_.positions[c[1]] - origin, cut_.positions[c[2]] - origin));
+  }
+
+  /// Shells first, then cavities go to the solid around them.
+  void number_solids() {
+    const std::size_t n = shells_.corners.size();
+    std::vector<std::int32_t> shell(n, -1), id(n, -1);
+    std::vector<std::size_t> first;
+    for (std::size_t f = 0; f < n; ++f) {
+      if (!shells_.present[f]) continue;
+      auto& s = id[faces_.root(f)];
+      if (s < 0) {
+        s = static_cast<std::int32_t>(first.size());
+        first.push_back(f);
+      }
+      shell[f] = s;
+    }
+    const Vec3 origin = n > 0 ? cut_.positions[shells_.corners[0][0]] : Vec3::Zero();
+    std::vector<double> volume(first.size(), 0.0);
+    double body = 0;
+    for (std::size_t f = 0; f < n; ++f)
+      if (shell[f] >= 0) {
+        volume[shell[f]] += six_volume(f, origin) / 6;
+        if (f < shells_.surface_faces) body += six_volume(f, origin) / 6;
+      }
+    std::vector<bool> cavity(first.size());
+    for (std::size_t s = 0; s < first.size(); ++s)
+      cavity[s] = volume[s] < -1e-11 * body;
+    for (std::size_t s = 0; s < first.size(); ++s)
+      if (std::abs(volume[s]) <= 1e-11 * body) cavity[s] = true;
+    // a piece without volume is a piece when a side of the sheet faces another shell across it
+    for (std::size_t f = shells_.surface_faces; f < n; ++f)
+      if (shell[f] >= 0 && shell[f] != shell[shells_.opposite(f)] && volume[shell[f]] >= -1e-11 * body)
+        cavity[shell[f]] = false;
+
+    std::vector<std::int32_t> solid(first.size(), -1);
+    for (std::size_t s = 0; s < first.size(); ++s)
+      if (!cavity[s]) {
+        solid[s] = static_cast<std::int32_t>(shells_.volume.size());
+        shells_.volume.push_back(volume[s]);
+      }
+    for (std::size_t s = 0; s < first.size(); ++s)
+      if (cavity[s]) {
+        const std::int32_t around = surrounding(first[s], shell, volume, cavity);
+        if (around < 0)
+          throw ComputationError(
+              "a cavity or an inner crack lies in no piece of the body: is the surface oriented outward?");
+        solid[s] = solid[around];
+        shells_.volume[solid[s]] += volume[s];
+      }
+    shells_.solid.assign(n, -1);
+    for (std::size_t f = 0; f < n; ++f)
+      if (shell[f] >= 0) shells_.solid[f] = solid[shell[f]];
+  }
+
+  /// The smallest shell with material inside that winds around the face.
+  std::int32_t surrounding(std::size_t face, const std::vector<std::int32_t>& shell,
+                           const std::vector<double>& volume, const std::vector<bool>& cavity) const {
+    std::vector<double> turns(volume.size(), 0.0);
+    const auto& c = shells_.corners[face];
+    const Vec3 x = (cut_.positions[c[0]] + cut_.positions[c[1]] + cut_.positions[c[2]]) / 3;
+    for (std::size_t f = 0; f < shell.size(); ++f) {
+      if (shell[f] < 0 || cavity[shell[f]]) continue;
+      const auto& t = shells_.corners[f];
+      const Vec3 u = cut_.positions[t[0]] - x, v = cut_.positions[t[1]] - x, w = cut_.positions[t[2]] - x;
+      const double lu = u.norm(), lv = v.norm(), lw = w.norm();
+      turns[shell[f]] +=
+          2 * std::atan2(u.dot(cross(v, w)), lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv);
+    }
+    std::int32_t best = -1;
+    for (std::size_t s = 0; s < volume.size(); ++s)
+      if (!cavity[s] && turns[s] > 2 * std::numbers::pi && (best < 0 || volume[s] < volume[best]))
+        best = static_cast<std::int32_t>(s);
+    return best;
+  }
+
+  const CutComplex& cut_;
+  UnionFind corners_, faces_;
+  Shells shells_;
+};
+
+}  // namespace
+
+Shells glue(const CutComplex& cut, const std::vector<bool>& left_out) {
+  return Gluing(cut, left_out).run();
+}
+
+std::size_t count_pieces(const CutComplex& cut) {
+  return glue(cut).volume.size();
+}
+
+}  // namespace conchoid
