@@ -1,0 +1,271 @@
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "conchoid/mesh/format_bytes.hpp"
+#include "conchoid/mesh/format_readers.hpp"
+#include "conchoid/mesh/mesh_text.hpp"
+
+namespace conchoid {
+namespace {
+
+enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct ScalarName {
+  std::string_view name, other_name;
+  Scalar type;
+  std::size_t size;
+};
+constexpr std::array<ScalarName, 8> scalar_names = {{{"char", "int8", Scalar::int8, 1},
+                                                     {"uchar", "uint8", Scalar::uint8, 1},
+                                                     {"short", "int16", Scalar::int16, 2},
+                                                     {"ushort", "uint16", Scalar::uint16, 2},
+                                                     {"int", "int32", Scalar::int32, 4},
+                                                     {"uint", "uint32", Scalar::uint32, 4},
+                                                     {"float", "float32", Scalar::float32, 4},
+                                                     {"double", "float64", Scalar::float64, 8}}};
+
+struct Property {
+  std::string name;
+  Scalar type = Scalar::float32;
+  std::optional<Scalar> list_count;  ///< type of the length of a list; a single value otherwise
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+enum class Encoding { ascii, little_endian, big_endian };
+
+struct Header {
+  Encoding encoding = Encoding::ascii;
+  std::vector<Element> elements;
+};
+
+Scalar scalar_type(std::string_view word, const TextScanner& scan) {
+  for (const ScalarName& s : scalar_names)
+    if (word == s.name || word == s.other_name) return s.type;
+  scan.fail("unknown property type");
+}
+
+std::size_t size_of(Scalar type) {
+  return scalar_names[static_cast<std::size_t>(type)].size;
+}
+
+Header read_header(TextScanner& scan, const std::string& file, std::size_t file_size) {
+  if (!scan.next_line() || scan.next_word() != "ply")
+    fail_in_file(file, "does not start with 'ply'; it is not a .ply file");
+  Header header;
+  bool has_format = false;
+  while (scan.next_line()) {
+    const std::string_view keyword = scan.next_word();
+    if (keyword == "end_header") {
+      if (!has_format) scan.fail("the header names no format");
+      return header;
+    } else if (keyword == "format") {
+      const std::string_view name = scan.next_word();
+      has_format = true;
+      if (name == "ascii")
+        header.encoding = Encoding::ascii;
+      else if (name == "binary_little_endian")
+        header.encoding = Encoding::little_endian;
+      else if (name == "binary_big_endian")
+        header.encoding = Encoding::big_endian;
+      else
+        scan.fail("unknown format; use ascii, binary_little_endian or binary_big_endian");
+    } else if (keyword == "element") {
+      Element element;
+      element.name = scan.next_word();
+      const std::int64_t count = scan.integer(scan.next_word(), "number of elements");
+      if (count < 0 || static_cast<std::uint64_t>(count) > file_size)
+        scan.fail("element count " + std::to_string(count) +
+                  " does not fit into the file; it is truncated or damaged");
+      element.count = static_cast<std::uint64_t>(count);
+      header.elements.push_back(std::move(element));
+    } else if (keyword == "property") {
+      if (header.elements.empty()) scan.fail("a property before any element");
+      Property property;
+      std::string_view type = scan.next_word();
+      if (type == "list") {
+        property.list_count = scalar_type(scan.next_word(), scan);
+        type = scan.next_word();
+      }
+      property.type = scalar_type(type, scan);
+      property.name = scan.next_word();
+      header.elements.back().properties.push_back(std::move(property));
+    } else if (keyword != "comment" && keyword != "obj_info") {
+      scan.fail("unknown keyword in the header");
+    }
+  }
+  scan.fail("the file ends before 'end_header'; it is truncated");
+}
+
+/// Hands out the values of the body one after the other.
+class Body {
+ public:
+  Body(Encoding encoding, TextScanner& scan, const std::string& file)
+      : encoding_(encoding), scan_(scan), file_(file), bytes_(scan.rest()) {}
+
+  void at(const Element& element, std::uint64_t index) {
+    element_ = &element;
+    index_ = index;
+  }
+
+  double next(Scalar type) {
+    if (encoding_ == Encoding::ascii)
+      return scan_.number(scan_.next_word_across('\0', place().c_str()), "value");
+    const std::endian order = encoding_ == Encoding::little_endian ? std::endian::little : std::endian::big;
+    if (bytes_.size() < size_of(type)) fail("the file ends here; it is truncated");
+    const std::string_view raw = bytes_;
+    bytes_ = bytes_.substr(size_of(type));
+    switch (type) {
+      case Scalar::int8:
+        return from_bytes<std::int8_t>(raw, order);
+      case Scalar::uint8:
+        return from_bytes<std::uint8_t>(raw, order);
+      case Scalar::int16:
+        return from_bytes<std::int16_t>(raw, order);
+      case Scalar::uint16:
+        return from_bytes<std::uint16_t>(raw, order);
+      case Scalar::int32:
+        return from_bytes<std::int32_t>(raw, order);
+      case Scalar::uint32:
+        return from_bytes<std::uint32_t>(raw, order);
+      case Scalar::float32:
+        return from_bytes<float>(raw, order);
+      case Scalar::float64:
+        return from_bytes<double>(raw, order);
+    }
+    return 0;
+  }
+
+  /// Length of a list: a whole number no larger than what the file can still hold.
+  std::uint64_t next_length(const Property& property) {
+    const double length = next(*property.list_count);
+    const std::size_t left = encoding_ == Encoding::ascii ? scan_.rest().size() + 4096 : bytes_.size();
+    if (!(length >= 0) || length != std::floor(length)) fail("the length of its list is not a count");
+    if (length > static_cast<double>(left))
+      fail("its list is longer than the file; it is truncated or damaged");
+    return static_cast<std::uint64_t>(length);
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    if (encoding_ == Encoding::ascii) scan_.fail(place() + ": " + message);
+    fail_in_file(file_, place() + ": " + message);
+  }
+
+ private:
+  std::string place() const { return element_->name + " " + std::to_string(index_); }
+
+  Encoding encoding_;
+  TextScanner& scan_;
+  const std::string& file_;
+  std::string_view bytes_;
+  const Element* element_ = nullptr;
+  std::uint64_t index_ = 0;
+};
+
+void skip(Body& body, const Property& property) {
+  const std::uint64_t values = property.list_count ? body.next_length(property) : 1;
+  for (std::uint64_t k = 0; k < values; ++k)
+    body.next(property.type);
+}
+
+void read_vertex(Body& body, const Element& element, TriMesh& mesh) {
+  Vec3 x = Vec3::Zero();
+  for (const Property& property : element.properties) {
+    const int axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
+    if (axis < 0 || property.list_count)
+      skip(body, property);
+    else
+      x[axis] = body.next(property.type);
+  }
+  if (!x.allFinite()) body.fail("a coordinate is not finite; repair it");
+  mesh.positions.push_back(x);
+}
+
+bool holds_corners(const Property& property) {
+  return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+void read_face(Body& body, const Element& element, std::uint64_t vertex_count, TriMesh& mesh) {
+  std::vector<NodeId> polygon;
+  for (const Property& property : element.properties) {
+    if (!holds_corners(property)) {
+      skip(body, property);
+      continue;
+    }
+    const std::uint64_t corners = body.next_length(property);
+    if (corners < 3) body.fail("has fewer than three corners");
+    for (std::uint64_t k = 0; k < corners; ++k) {
+      const double index = body.next(property.type);
+      if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
+        body.fail("a vertex index is out of range 0 … " +
+                  std::to_string(static_cast<std::int64_t>(vertex_count) - 1));
+      polygon.push_back(NodeId(static_cast<std::size_t>(index)));
+    }
+    add_polygon(mesh, polygon);
+    polygon.clear();
+  }
+}
+
+const Element& element_named(const Header& header, std::string_view name, const std::string& file) {
+  for (const Element& element : header.elements)
+    if (element.name == name) return element;
+  fail_in_file(file,
+               "has no element '" + std::string(name) + "'; export the surface with vertices and faces");
+}
+
+void require_properties(const Header& header, const std::string& file) {
+  const Element& vertex = element_named(header, "vertex", file);
+  for (const char* axis : {"x", "y", "z"})
+    if (std::none_of(vertex.properties.begin(), vertex.properties.end(),
+                     [&](const Property& p) { return p.name == axis && !p.list_count; }))
+      fail_in_file(file, "its vertices have no property '" + std::string(axis) + "'");
+  const Element& face = element_named(header, "face", file);
+  if (std::none_of(face.properties.begin(), face.properties.end(), holds_corners))
+    fail_in_file(file, "its faces have no list 'vertex_indices'; export faces, not strips");
+}
+
+}  // namespace
+
+TriMesh read_ply(std::string_view bytes, const std::string& file) {
+  TextScanner scan(bytes, file);
+  const Header header = read_header(scan, file, bytes.size());
+  require_properties(header, file);
+  const std::uint64_t vertex_count = element_named(header, "vertex", file).count;
+  Body body(header.encoding, scan, file);
+  TriMesh mesh;
+  for (const Element& element : header.elements)
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (element.properties.empty()) break;
+      body.at(element, i);
+      if (element.name == "vertex")
+        read_vertex(body, element, mesh);
+      else if (element.name == "face")
+        read_face(body, element, vertex_count, mesh);
+      else
+        for (const Property& property : element.properties)
+          skip(body, property);
+    }
+  return mesh;
+}
+
+void write_ply(std::ostream& out, const TriMesh& mesh) {
+  out << "ply\nformat binary_little_endian 1.0\ncomment written by conchoid, metres\n"
+      << "element vertex " << mesh.node_count()
+      << "\nproperty double x\nproperty double y\nproperty double z\n"
+      << "element face " << mesh.triangle_count() << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& x : mesh.positions)
+    for (int k = 0; k < 3; ++k)
+      write_little_endian(out, x[k]);
+  for (const auto& corners : mesh.corners) {
+    write_little_endian(out, std::uint8_t{3});
+    for (NodeId corner : corners)
+      write_little_endian(out, corner.value);
+  }
+}
+
+}  // namespace conchoid

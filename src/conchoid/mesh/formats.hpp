@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// Reads a surface; the format follows from the name's ending, in any case of letters: .ply (ascii, binary of
+/// both byte orders), .obj, .stl (ascii, binary; vertices with equal coordinates are merged), .off. Polygons
+/// become fans of triangles. Numbers are taken as metres. Whether the surface is closed or any good is not
+/// checked here (see validate.hpp). Throws InputError that names file, line or element, and remedy: missing,
+/// truncated or foreign files, numbers that are not finite, indices out of range. Never allocates more than a
+/// small multiple of the file's size.
+TriMesh read_mesh(const std::filesystem::path& path);
+
+/// Writes a surface in the format of the name's ending: .ply (binary little endian, double coordinates: read
+/// back bit for bit), .obj and .off (shortest text that reads back bit for bit), .stl (binary, single
+/// precision). The file appears complete or not at all. Throws InputError where the path cannot be written to
+/// or its ending is unknown, ComputationError where writing fails.
+void write_mesh(const std::filesystem::path& path, const TriMesh& mesh);
+
+}  // namespace conchoid

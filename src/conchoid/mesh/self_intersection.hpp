@@ -1,0 +1,17 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// Whether triangles s and t meet elsewhere than in nodes and edges they share. Touching counts as meeting.
+/// Exact: decided by the signs of determinants of the coordinates. Both must be free of repeated nodes.
+bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t);
+
+/// All pairs of triangles that intersect, s < t, ascending; stops after `limit` pairs.
+std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit);
+
+}  // namespace conchoid
