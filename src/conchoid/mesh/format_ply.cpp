@@ -96,7 +96,7 @@ Header read_header(TextScanner& scan, const std::string& file, std::size_t file_
       property.name = scan.next_word();
       header.elements.back().properties.push_back(std::move(property));
     } else if (keyword != "comment" && keyword != "obj_info") {
-      scan.fail("unknown keyword in the header");
+      scan.fail("unknown keyword in the header; the file is truncated or damaged");
     }
   }
   scan.fail("the file ends before 'end_header'; it is truncated");
