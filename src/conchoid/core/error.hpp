@@ -11,7 +11,8 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The computation could not be done although the input was acceptable (singular system, full disk). Exit status 1.
+/// The computation could not be done although the input was acceptable (singular system, full disk). Exit
+/// status 1.
 class ComputationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -22,10 +22,12 @@ void set_thread_count(int threads) {
 }
 
 int thread_count() {
-  return threads_wanted > 0 ? threads_wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return threads_wanted > 0 ? threads_wanted
+                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void parallel_for(std::size_t n, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
   grain = std::max<std::size_t>(1, grain);
   const std::size_t chunks = (n + grain - 1) / grain;
