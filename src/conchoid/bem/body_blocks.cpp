@@ -30,7 +30,9 @@ class PairTable {
   const SingleLayerPair& single_layer(std::size_t x, std::size_t y) const {
     return x >= y ? single_[x * (x + 1) / 2 + y] : single_[y * (y + 1) / 2 + x];
   }
-  const DoubleLayerPair& double_layer(std::size_t x, std::size_t y) const { return double_[row_[x] * n_ + y]; }
+  const DoubleLayerPair& double_layer(std::size_t x, std::size_t y) const {
+    return double_[row_[x] * n_ + y];
+  }
 
  private:
   std::size_t n_;

@@ -26,18 +26,19 @@ struct DenseMatrix {
 
 /// Which unknown a node's displacement and a triangle's traction are: −1 where they are prescribed.
 struct Unknowns {
-  std::vector<int> displacement;   ///< per node: 0 … displacement_count−1
-  std::vector<int> traction;       ///< per triangle: 0 … traction_count−1
+  std::vector<int> displacement;  ///< per node: 0 … displacement_count−1
+  std::vector<int> traction;      ///< per triangle: 0 … traction_count−1
   std::size_t displacement_count = 0, traction_count = 0;
 };
 Unknowns number_unknowns(const TriMesh& surface, const BoundaryData& data);
 
-/// The blocks of the uncracked body, unknown traction q on the displacement boundary, unknown displacement u elsewhere:
+/// The blocks of the uncracked body, unknown traction q on the displacement boundary, unknown displacement u
+/// elsewhere:
 ///   | V  −K | |q|   |f_D|      f_D = −V g_N + (½M + K) g_D
 ///   | Kᵀ  D | |u| = |f_N|      f_N = (½M − Kᵀ) g_N − D g_D                              docs/theory.md (B1)
 struct BodyBlocks {
-  std::vector<Panel> panels;                       ///< per triangle
-  std::vector<std::array<Vec3, 3>> curls;          ///< per triangle, of its corner functions
+  std::vector<Panel> panels;               ///< per triangle
+  std::vector<std::array<Vec3, 3>> curls;  ///< per triangle, of its corner functions
   Unknowns unknowns;
   DenseMatrix V, K, D;
   std::vector<double> f_D, f_N;

@@ -1,11 +1,15 @@
 #include "conchoid/bem/bordered_cholesky.hpp"
 
 #include <cblas.h>
-#include <lapacke.h>
 
 #include <algorithm>
 
-extern "C" void openblas_set_num_threads(int);
+extern "C" {
+void openblas_set_num_threads(int);
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
+             const int* ldb, int* info);
+}
 
 namespace conchoid {
 namespace {
@@ -36,7 +40,7 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
   if (m == 0) return true;
   reserve(n_ + m);
   const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
-  double* border = factor_.data() + n_;                         // rows n…n+m of the old columns
+  double* border = factor_.data() + n_;  // rows n…n+m of the old columns
   double* corner = factor_.data() + n_ * capacity_ + n_;
   for (std::size_t j = 0; j < n_; ++j)
     for (std::size_t i = 0; i < m; ++i)
@@ -45,11 +49,13 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
     for (std::size_t i = j; i < m; ++i)
       corner[j * capacity_ + i] = diagonal[i * m + j];
   if (n_ > 0) {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.data(), lead,
-                border, lead);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.data(),
+                lead, border, lead);
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, n, -1.0, border, lead, 1.0, corner, lead);
   }
-  if (LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', k, corner, lead) != 0) return false;
+  int info = 0;
+  dpotrf_("L", &k, corner, &lead, &info);
+  if (info != 0) return false;
   n_ += m;
   return true;
 }
@@ -61,8 +67,9 @@ void BorderedCholesky::truncate(std::size_t n) {
 void BorderedCholesky::solve(double* b, std::size_t count) const {
   if (n_ == 0 || count == 0) return;
   use_one_blas_thread();
-  LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', static_cast<int>(n_), static_cast<int>(count), factor_.data(),
-                 static_cast<int>(capacity_), b, static_cast<int>(n_));
+  const int n = static_cast<int>(n_), lead = static_cast<int>(capacity_), columns = static_cast<int>(count);
+  int info = 0;
+  dpotrs_("L", &n, &columns, factor_.data(), &lead, b, &n, &info);
 }
 
 }  // namespace conchoid

@@ -5,8 +5,9 @@
 
 namespace conchoid {
 
-/// Lower Cholesky factor L of a symmetric positive definite matrix A = L Lᵀ that grows and shrinks at its end:
-/// appended unknowns cost O(n² m) for m new ones and leave the factor of the old ones untouched.   docs/theory.md (B6)
+/// Lower Cholesky factor L of a symmetric positive definite matrix A = L Lᵀ that grows and shrinks at its
+/// end: appended unknowns cost O(n² m) for m new ones and leave the factor of the old ones untouched.
+/// docs/theory.md (B6)
 class BorderedCholesky {
  public:
   std::size_t size() const { return n_; }
@@ -27,8 +28,8 @@ class BorderedCholesky {
   void reserve(std::size_t n);
 
   std::size_t n_ = 0;
-  std::size_t capacity_ = 0;      // leading dimension
-  std::vector<double> factor_;    // column-major, lower triangle
+  std::size_t capacity_ = 0;    // leading dimension
+  std::vector<double> factor_;  // column-major, lower triangle
 };
 
 }  // namespace conchoid

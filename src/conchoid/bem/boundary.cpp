@@ -5,7 +5,8 @@
 namespace conchoid {
 
 bool BoundaryData::pure_traction() const {
-  return std::none_of(kind.begin(), kind.end(), [](BoundaryKind k) { return k == BoundaryKind::displacement; });
+  return std::none_of(kind.begin(), kind.end(),
+                      [](BoundaryKind k) { return k == BoundaryKind::displacement; });
 }
 
 BoundaryData free_surface(const TriMesh& surface) {

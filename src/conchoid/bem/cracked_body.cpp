@@ -38,9 +38,9 @@ struct Member {
   CutFunctionKind kind;
   NodeId node;
   std::vector<double> key;
-  DenseMatrix coupling;   // 3 × body unknowns: D_au + K_aᵀ V⁻¹ K
-  DenseMatrix K;          // traction unknowns × 3
-  DenseMatrix VinvK;      // V⁻¹ K
+  DenseMatrix coupling;      // 3 × body unknowns: D_au + K_aᵀ V⁻¹ K
+  DenseMatrix K;             // traction unknowns × 3
+  DenseMatrix VinvK;         // V⁻¹ K
   Vec3 load = Vec3::Zero();  // f_a − K_aᵀ V⁻¹ f_D
   Vec3 normal = Vec3::Zero();
 };
@@ -55,24 +55,29 @@ struct CrackedBody::State {
   BemSettings settings;
   PairIntegrator integrator;
   BodyBlocks body;
-  BorderedCholesky V;           // of the single layer
-  DenseMatrix VinvK;            // V⁻¹ K
-  std::vector<double> VinvF;    // V⁻¹ f_D
-  std::vector<double> load;     // of the body: f_N − Kᵀ V⁻¹ f_D
-  BorderedCholesky P;           // of the Schur complement D + Kᵀ V⁻¹ K, body first, then members in order
+  BorderedCholesky V;         // of the single layer
+  DenseMatrix VinvK;          // V⁻¹ K
+  std::vector<double> VinvF;  // V⁻¹ f_D
+  std::vector<double> load;   // of the body: f_N − Kᵀ V⁻¹ f_D
+  BorderedCholesky P;         // of the Schur complement D + Kᵀ V⁻¹ K, body first, then members in order
   std::vector<Member> members;
-  DenseMatrix among;            // 3·members square: D_aa + K_aᵀ V⁻¹ K_a
-  std::size_t factored = 0;     // members eliminated in P
+  DenseMatrix among;         // 3·members square: D_aa + K_aᵀ V⁻¹ K_a
+  std::size_t factored = 0;  // members eliminated in P
   CutSpace space;
-  std::vector<std::size_t> member_of;   // per function of space
+  std::vector<std::size_t> member_of;  // per function of space
   std::size_t cut_nodes = 0;
   std::vector<double> solution;
   IdVector<NodeId, Vec3> opening;
   AppendStatistics statistics;
 
   State(TriMesh s, BoundaryData d, const ElasticConstants& constants, AmbientField a, const BemSettings& b)
-      : surface(std::move(s)), data(std::move(d)), m(constants), ambient(std::move(a)), settings(b),
-        integrator(b.quadrature_tolerance), body(assemble_body(surface, data, m, integrator)) {
+      : surface(std::move(s)),
+        data(std::move(d)),
+        m(constants),
+        ambient(std::move(a)),
+        settings(b),
+        integrator(b.quadrature_tolerance),
+        body(assemble_body(surface, data, m, integrator)) {
     factor_body();
     space = make_cut_space(whole_surface(surface), surface, data);
   }
@@ -96,8 +101,9 @@ struct CrackedBody::State {
 
   void factor_body() {
     if (!V.append({}, body.V.data))
-      throw ComputationError("the single layer matrix is not positive definite: the surface mesh has overlapping or "
-                             "nearly degenerate triangles; run `conchoid mesh` on it and remesh");
+      throw ComputationError(
+          "the single layer matrix is not positive definite: the surface mesh has overlapping or "
+          "nearly degenerate triangles; run `conchoid mesh` on it and remesh");
     DenseMatrix columns = transposed(body.K);  // each row one column of K
     if (body.V.rows > 0) V.solve(columns.data.data(), columns.rows);
     VinvK = transposed(columns);
@@ -109,22 +115,30 @@ struct CrackedBody::State {
         load[i] -= body.K(q, i) * VinvF[q];
     DenseMatrix schur = body.D;
     add_transposed_product(body.K, VinvK, schur);
-    if (data.pure_traction() && surface.node_count() > 0) hold_rigid_motions(schur);
+    hold_rigid_motions(schur);
     if (!P.append({}, schur.data))
-      throw ComputationError("the body's stiffness is not positive definite: the surface mesh has overlapping or nearly "
-                             "degenerate triangles; run `conchoid mesh` on it and remesh");
+      throw ComputationError(
+          "the body's stiffness is not positive definite: the surface mesh has overlapping or nearly "
+          "degenerate triangles; run `conchoid mesh` on it and remesh");
   }
 
-  // D annihilates rigid motions; adding α r rᵀ for each makes it definite and leaves balanced solutions unchanged.
+  // D annihilates rigid motions; adding α r rᵀ for each makes it definite and leaves balanced solutions
+  // unchanged.
   void hold_rigid_motions(DenseMatrix& schur) const {
     double trace = 0;
     for (std::size_t i = 0; i < schur.rows; ++i)
       trace += schur(i, i);
-    const double alpha = trace / static_cast<double>(schur.rows);
-    for (const auto& r : rigid_motions(surface))
+    const double alpha = trace / static_cast<double>(std::max<std::size_t>(schur.rows, 1));
+    for (const auto& motion : floating_motions(surface, data)) {
+      std::vector<double> r(schur.rows, 0.0);
+      for (std::size_t i = 0; i < surface.node_count(); ++i)
+        if (const int at = body.unknowns.displacement[i]; at >= 0)
+          std::copy_n(&motion[3 * i], 3, &r[3 * static_cast<std::size_t>(at)]);
       for (std::size_t i = 0; i < schur.rows; ++i)
-        for (std::size_t j = 0; j < schur.columns; ++j)
-          schur(i, j) += alpha * r[i] * r[j];
+        if (r[i] != 0)
+          for (std::size_t j = 0; j < schur.columns; ++j)
+            schur(i, j) += alpha * r[i] * r[j];
+    }
   }
 
   void replace_members();
@@ -167,7 +181,8 @@ void CrackedBody::State::replace_members() {
   std::vector<CutRows> rows = assemble_cut_rows(problem, space, wanted);
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     const CutFunction& f = space.functions[wanted[w]];
-    Member member{f.kind, f.node, f.key, std::move(rows[w].D_body), std::move(rows[w].K), {}, rows[w].load, {}};
+    Member member{f.kind, f.node,       f.key, std::move(rows[w].D_body), std::move(rows[w].K),
+                  {},     rows[w].load, {}};
     DenseMatrix columns = transposed(member.K);
     if (body.V.rows > 0) V.solve(columns.data.data(), 3);
     member.VinvK = transposed(columns);
@@ -176,7 +191,8 @@ void CrackedBody::State::replace_members() {
       for (int p = 0; p < 3; ++p)
         member.load[p] -= member.K(q, p) * VinvF[q];
     for (const PanelValues& v : f.support)
-      if (v.panel >= space.surface_count) member.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
+      if (v.panel >= space.surface_count)
+        member.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
     if (f.carries_opening()) member.normal.normalize();
     now.push_back(std::move(member));
   }
@@ -214,8 +230,9 @@ void CrackedBody::State::eliminate_members() {
     std::copy_n(row + 3 * factored, count, &diagonal[i * count]);
   }
   if (!P.append(coupling, diagonal))
-    throw ComputationError("the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
-                           "touches itself");
+    throw ComputationError(
+        "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
+        "touches itself");
   factored = members.size();
 }
 
@@ -244,11 +261,11 @@ void CrackedBody::solve() {
   }
   s.P.solve(s.solution.data());
   if (s.settings.contact)
-    close_penetrating_faces(s.solution, constraints, [&](double* b, std::size_t count) { s.P.solve(b, count); });
+    close_penetrating_faces(s.solution, constraints,
+                            [&](double* b, std::size_t count) { s.P.solve(b, count); });
   s.opening.assign(s.cut_nodes, Vec3::Zero());
   for (std::size_t i = 0; i < s.members.size(); ++i)
-    if (s.members[i].kind != CutFunctionKind::ripple)
-      s.opening[s.members[i].node] = s.coefficient(i);
+    if (s.members[i].kind != CutFunctionKind::ripple) s.opening[s.members[i].node] = s.coefficient(i);
 }
 
 const IdVector<NodeId, Vec3>& CrackedBody::opening() const {
@@ -276,7 +293,8 @@ std::vector<Vec3> CrackedBody::State::computed_traction() const {
         q[i] += members[a].VinvK(i, p) * coefficient(a)[p];
   }
   for (std::size_t x = 0; x < t.size(); ++x)
-    if (const int at = body.unknowns.traction[x]; at >= 0) t[x] = Eigen::Map<const Vec3>(&q[3 * static_cast<std::size_t>(at)]);
+    if (const int at = body.unknowns.traction[x]; at >= 0)
+      t[x] = Eigen::Map<const Vec3>(&q[3 * static_cast<std::size_t>(at)]);
   return t;
 }
 

@@ -22,9 +22,10 @@ struct AppendStatistics {
   std::size_t refactored = 0;  ///< of these, eliminated anew
 };
 
-/// An elastic body with cracks, by the symmetric Galerkin boundary element method.              docs/theory.md §2–4
-/// The body is assembled and factored once, on construction; a crack adds unknowns at the end of the system, and when it grows
-/// only what is new is assembled: functions whose support did not change are recognised and kept.
+/// An elastic body with cracks, by the symmetric Galerkin boundary element method. docs/theory.md §2–4 The
+/// body is assembled and factored once, on construction; a crack adds unknowns at the end of the system, and
+/// when it grows only what is new is assembled: functions whose support did not change are recognised and
+/// kept.
 ///
 ///   CrackedBody body(surface, data, material, {}, {});
 ///   body.set_crack(corefine(surface, sheet, {.merge = 0.1}));
@@ -34,7 +35,8 @@ class CrackedBody {
  public:
   /// @param surface  closed, outward; empty for an unbounded body (then `ambient` is the stress at infinity)
   /// @param ambient  stress superposed on what the elements compute; its traction is already taken off `data`
-  /// Errors: ComputationError when the system is singular (a body that is not held and not balanced is refused before).
+  /// Errors: ComputationError when the system is singular (a body that is not held and not balanced is
+  /// refused before).
   CrackedBody(TriMesh surface, BoundaryData data, const ElasticConstants& m, AmbientField ambient = {},
               const BemSettings& settings = {});
   ~CrackedBody();
@@ -47,16 +49,19 @@ class CrackedBody {
 
   /// Full opening Δu [m] per node of the cut complex; zero on the front and off the crack.
   const IdVector<NodeId, Vec3>& opening() const;
-  /// Displacement [m] of the surface's nodes (mean of the two sides at a mouth; up to a rigid motion if nothing is held).
+  /// Displacement [m] of the surface's nodes (mean of the two sides at a mouth; up to a rigid motion if
+  /// nothing is held).
   IdVector<NodeId, Vec3> displacement() const;
   /// Traction [Pa] per surface triangle.
   std::vector<Vec3> traction() const;
-  /// Stress [Pa] per surface triangle, from displacement gradient and traction; mean over its pieces where the crack cuts it.
+  /// Stress [Pa] per surface triangle, from displacement gradient and traction; mean over its pieces where
+  /// the crack cuts it.
   std::vector<Mat3> surface_stress() const;
   /// Stress [Pa] at a point inside the body and off the crack.
   Mat3 interior_stress(const Vec3& x) const;
   const AppendStatistics& statistics() const;
-  /// ½ fᵀx [J]: half the work of the loads; the part due to the crack is the energy it releases under constant load.
+  /// ½ fᵀx [J]: half the work of the loads; the part due to the crack is the energy it releases under
+  /// constant load.
   double energy() const;
 
  private:

@@ -9,10 +9,11 @@ namespace conchoid {
 
 /// The three rows that one vector-valued cut function adds to the system (test function f e_p, p = 0, 1, 2).
 struct CutRows {
-  DenseMatrix D_body;         ///< 3 × 3·displacement unknowns: against the body's nodes
-  DenseMatrix D_cut;          ///< 3 × 3·functions: against all cut functions
-  DenseMatrix K;              ///< 3·traction unknowns × 3: its column of K
-  Vec3 load = Vec3::Zero();   ///< ½M g_N − Kᵀ g_N − D g_D + ambient stress on the crack        docs/theory.md (B7)
+  DenseMatrix D_body;  ///< 3 × 3·displacement unknowns: against the body's nodes
+  DenseMatrix D_cut;   ///< 3 × 3·functions: against all cut functions
+  DenseMatrix K;       ///< 3·traction unknowns × 3: its column of K
+  Vec3 load =
+      Vec3::Zero();  ///< ½M g_N − Kᵀ g_N − D g_D + ambient stress on the crack        docs/theory.md (B7)
 };
 
 /// What the rows are made against.

@@ -84,7 +84,8 @@ class CutSpaceBuilder {
       std::array<Vec3, 3> values;
       for (int k = 0; k < 3; ++k) {
         const auto own = std::find(parent.begin(), parent.end(), c[k]);
-        values[k] = own == parent.end() ? barycentric(x, cut_.positions[c[k]]) : Vec3::Unit(own - parent.begin());
+        values[k] =
+            own == parent.end() ? barycentric(x, cut_.positions[c[k]]) : Vec3::Unit(own - parent.begin());
       }
       out_.parent_values.push_back(values);
     }
@@ -104,7 +105,8 @@ class CutSpaceBuilder {
     for (const Corners& c : cut_.sheet)
       for (int k = 0; k < 3; ++k) {
         const NodeId a = c[k], b = c[(k + 1) % 3];
-        if (crack_star_.along(b, a) >= 0 || std::binary_search(cut_.mouth.begin(), cut_.mouth.end(), Edge(a, b)))
+        if (crack_star_.along(b, a) >= 0 ||
+            std::binary_search(cut_.mouth.begin(), cut_.mouth.end(), Edge(a, b)))
           continue;
         on_front_[a.index()] = on_front_[b.index()] = 1;
       }
@@ -143,8 +145,8 @@ class CutSpaceBuilder {
     out_.functions.push_back(std::move(f));
   }
 
-  // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points to runs along the
-  // mouth edge in the direction the crack triangle does.
+  // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points
+  // to runs along the mouth edge in the direction the crack triangle does.
   void add_mouth(NodeId node) {
     CutFunction f{CutFunctionKind::mouth, node, {}, {}};
     std::vector<std::size_t> plus;
@@ -159,7 +161,8 @@ class CutSpaceBuilder {
 
   bool collect_plus_fan(NodeId node, std::vector<std::size_t>& plus) const {
     for (NodeId other : mouth_edges_[node.index()]) {
-      // walk counter-clockwise from the mouth edge node→other if the crack runs that way: its left side is plus
+      // walk counter-clockwise from the mouth edge node→other if the crack runs that way: its left side is
+      // plus
       if (crack_star_.along(node, other) < 0) continue;
       NodeId spoke = other;
       for (std::size_t guard = 0; guard <= surface_star_.around(node).size(); ++guard) {

@@ -1,7 +1,9 @@
 #include "conchoid/bem/rigid_body.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "conchoid/bem/pair_blocks.hpp"
 
@@ -56,8 +58,8 @@ bool balanced(const Resultant& r, const TriMesh& surface) {
 
 AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const ElasticConstants& m) {
   const MassProperties p = mass_properties(surface);
-  const Vec3 b = -r.force / p.volume;                                      // −ρ a
-  const Mat3 w = -cross_matrix(p.inertia.inverse() * r.moment);            // −ρ α×
+  const Vec3 b = -r.force / p.volume;                            // −ρ a
+  const Mat3 w = -cross_matrix(p.inertia.inverse() * r.moment);  // −ρ α×
   const double mu = m.shear_modulus();
   const double lambda = 2 * mu * m.poisson_ratio / (1 - 2 * m.poisson_ratio);
   const double translation = -1 / (8 * mu + 2 * lambda), rotation = -1 / (10 * mu);
@@ -69,20 +71,43 @@ AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const Ela
   };
   field.stress = [=](const Vec3& y) -> Mat3 {
     const Vec3 x = y - center;
-    const Mat3 gradient = 2 * (translation * b + rotation * (w * x)) * x.transpose() +
-                          rotation * x.squaredNorm() * w;
+    const Mat3 gradient =
+        2 * (translation * b + rotation * (w * x)) * x.transpose() + rotation * x.squaredNorm() * w;
     return lambda * gradient.trace() * Mat3::Identity() + mu * (gradient + gradient.transpose());
   };
   return field;
 }
 
-std::vector<std::vector<double>> rigid_motions(const TriMesh& surface) {
-  const std::size_t n = surface.node_count();
+std::vector<int> connected_parts(const TriMesh& surface) {
+  std::vector<std::size_t> parent(surface.node_count());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (parent[i] != i)
+      i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& c : surface.corners)
+    for (int k = 1; k < 3; ++k) {
+      const std::size_t a = root(c[0].index()), b = root(c[k].index());
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<int> part(surface.node_count());
+  int count = 0;
+  for (std::size_t i = 0; i < part.size(); ++i)
+    part[i] = root(i) == i ? count++ : part[root(i)];
+  return part;
+}
+
+namespace {
+
+// Six orthonormal motions of the given nodes.
+void add_motions(const TriMesh& surface, const std::vector<std::size_t>& nodes,
+                 std::vector<std::vector<double>>& out) {
   Vec3 center = Vec3::Zero();
-  for (const Vec3& x : surface.positions)
-    center += x / static_cast<double>(n);
-  std::vector<std::vector<double>> modes(6, std::vector<double>(3 * n));
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i : nodes)
+    center += surface.positions[NodeId(i)] / static_cast<double>(nodes.size());
+  std::vector<std::vector<double>> modes(6, std::vector<double>(3 * surface.node_count(), 0.0));
+  for (std::size_t i : nodes)
     for (int k = 0; k < 3; ++k) {
       const Vec3 rotation = cross(Vec3::Unit(k), surface.positions[NodeId(i)] - center);
       for (int j = 0; j < 3; ++j) {
@@ -90,15 +115,32 @@ std::vector<std::vector<double>> rigid_motions(const TriMesh& surface) {
         modes[3 + k][3 * i + j] = rotation[j];
       }
     }
-  for (std::size_t k = 0; k < 6; ++k)      // modified Gram–Schmidt
+  for (std::size_t k = 0; k < 6; ++k)  // modified Gram–Schmidt
     for (std::size_t j = 0; j <= k; ++j) {
-      double product = 0;
-      for (std::size_t i = 0; i < 3 * n; ++i)
-        product += modes[k][i] * modes[j][i];
-      const double length = j == k ? std::sqrt(product) : 1;
-      for (std::size_t i = 0; i < 3 * n; ++i)
+      const double product = std::inner_product(modes[k].begin(), modes[k].end(), modes[j].begin(), 0.0);
+      const double length = std::sqrt(product);
+      for (std::size_t i = 0; i < modes[k].size(); ++i)
         modes[k][i] = j == k ? modes[k][i] / length : modes[k][i] - product * modes[j][i];
     }
+  for (auto& mode : modes)
+    out.push_back(std::move(mode));
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const BoundaryData& data) {
+  const std::vector<int> part = connected_parts(surface);
+  std::vector<std::vector<std::size_t>> nodes;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (static_cast<std::size_t>(part[i]) >= nodes.size()) nodes.emplace_back();
+    nodes[part[i]].push_back(i);
+  }
+  std::vector<char> held(nodes.size(), 0);
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    if (data.kind[t] == BoundaryKind::displacement) held[part[surface.corners[TriId(t)][0].index()]] = 1;
+  std::vector<std::vector<double>> modes;
+  for (std::size_t p = 0; p < nodes.size(); ++p)
+    if (!held[p]) add_motions(surface, nodes[p], modes);
   return modes;
 }
 

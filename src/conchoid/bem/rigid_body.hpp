@@ -9,22 +9,28 @@ namespace conchoid {
 
 /// Resultant of the surface tractions.
 struct Resultant {
-  Vec3 force;     ///< [N]
-  Vec3 moment;    ///< about the centre of mass [N m]
-  double scale;   ///< Σ |t| A [N]: what "small" is compared with
-  Vec3 center;    ///< centre of mass of the (uniform) body [m]
+  Vec3 force;    ///< [N]
+  Vec3 moment;   ///< about the centre of mass [N m]
+  double scale;  ///< Σ |t| A [N]: what "small" is compared with
+  Vec3 center;   ///< centre of mass of the (uniform) body [m]
 };
 Resultant resultant(const TriMesh& surface, const BoundaryData& data);
 
-/// True when force and moment vanish relative to the loads applied (1e-6 of Σ|t|A, and of that times the body's size).
+/// True when force and moment vanish relative to the loads applied (1e-6 of Σ|t|A, and of that times the
+/// body's size).
 bool balanced(const Resultant& r, const TriMesh& surface);
 
-/// Inertia relief: the stress field that belongs to the rigid-body acceleration which the unbalanced load causes.
-/// Body force b(x) = −ρ (a + α × (x − c)) with F = m a, T = I α; a polynomial field with div σ + b = 0.   docs/theory.md (B8)
-/// The density cancels: only shape and load matter.
+/// Inertia relief: the stress field that belongs to the rigid-body acceleration which the unbalanced load
+/// causes. Body force b(x) = −ρ (a + α × (x − c)) with F = m a, T = I α; a polynomial field with div σ + b =
+/// 0.   docs/theory.md (B8) The density cancels: only shape and load matter.
 AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const ElasticConstants& m);
 
-/// The six rigid motions at the nodes, orthonormal, each 3·nodes long.
-std::vector<std::vector<double>> rigid_motions(const TriMesh& surface);
+/// Orthonormal rigid motions, six for every connected part of the surface that touches no displacement
+/// boundary, each 3·nodes long and zero off its part. They are the null space of the hypersingular operator:
+/// a cavity's surface has its own six, which move nothing but itself.
+std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const BoundaryData& data);
+
+/// Connected part (0, 1, …) of each node.
+std::vector<int> connected_parts(const TriMesh& surface);
 
 }  // namespace conchoid

@@ -4,7 +4,8 @@
 
 namespace conchoid {
 
-Mat3 surface_stress(const Triangle& x, const std::array<Vec3, 3>& u, const Vec3& t, const ElasticConstants& m) {
+Mat3 surface_stress(const Triangle& x, const std::array<Vec3, 3>& u, const Vec3& t,
+                    const ElasticConstants& m) {
   const Vec3 n2 = area_vector2(x[0], x[1], x[2]);
   const double twice_area = n2.norm();
   const Vec3 n = n2 / twice_area;
