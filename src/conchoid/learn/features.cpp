@@ -1,0 +1,156 @@
+#include "conchoid/learn/features.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/crack/stress_intensity.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr std::array<FeatureSet, 5> sets = {FeatureSet::paper_3, FeatureSet::paper_4, FeatureSet::paper_5,
+                                            FeatureSet::dimensionless, FeatureSet::dimensionless_context};
+
+bool is_paper(FeatureSet set) {
+  return set == FeatureSet::paper_3 || set == FeatureSet::paper_4 || set == FeatureSet::paper_5;
+}
+
+ElasticConstants material(const Sample& s) {
+  return {s.youngs_modulus, s.poisson_ratio};
+}
+
+/// S, the size of all intensities together [Pa√m].
+double intensity_scale(const Sample& s) {
+  return std::sqrt(s.K[0] * s.K[0] + s.K[1] * s.K[1] + s.K[2] * s.K[2] / (1 - s.poisson_ratio) +
+                   s.toughness * s.toughness);
+}
+
+/// +1 or −1 per mode: the sense in which modes II and III act.
+Vec3 senses(const Sample& s) {
+  return {1.0, s.K[1] < 0 ? -1.0 : 1.0, s.K[2] < 0 ? -1.0 : 1.0};
+}
+
+}  // namespace
+
+std::vector<FeatureSet> all_feature_sets() {
+  return {sets.begin(), sets.end()};
+}
+
+std::string_view name(FeatureSet set) {
+  switch (set) {
+    case FeatureSet::paper_3:
+      return "paper-3";
+    case FeatureSet::paper_4:
+      return "paper-4";
+    case FeatureSet::paper_5:
+      return "paper-5";
+    case FeatureSet::dimensionless:
+      return "dimensionless";
+    case FeatureSet::dimensionless_context:
+      return "dimensionless-context";
+  }
+  return "";
+}
+
+FeatureSet feature_set_from_name(std::string_view wanted) {
+  std::string known;
+  for (const FeatureSet set : sets) {
+    if (name(set) == wanted) return set;
+    known += (known.empty() ? "" : ", ") + std::string(name(set));
+  }
+  throw InputError("unknown feature set \"" + std::string(wanted) + "\"; choose one of " + known);
+}
+
+std::vector<std::string> feature_names(FeatureSet set) {
+  std::vector<std::string> names;
+  if (is_paper(set)) {
+    names = {"K_I/sqrt(r_bar)", "K_II/sqrt(r_bar)", "K_III/sqrt(r_bar)"};
+    if (set != FeatureSet::paper_3) names.push_back("K_c");
+    if (set == FeatureSet::paper_5) names.push_back("travelled");
+    return names;
+  }
+  names = {"K_I/S",         "|K_II|/S",         "|K_III|/S",       "K_c/S",        "r_before/r_bar",
+           "r_after/r_bar", "r_after/r_before", "travelled/r_bar", "poisson_ratio"};
+  if (set == FeatureSet::dimensionless_context)
+    for (const char* extra :
+         {"curvature*r_bar", "surface_proximity", "traction_I/S", "traction_II/S", "traction_III/S"})
+      names.emplace_back(extra);
+  return names;
+}
+
+std::size_t feature_count(FeatureSet set) {
+  switch (set) {
+    case FeatureSet::paper_3:
+      return 3;
+    case FeatureSet::paper_4:
+      return 4;
+    case FeatureSet::paper_5:
+      return 5;
+    case FeatureSet::dimensionless:
+      return 9;
+    case FeatureSet::dimensionless_context:
+      return 14;
+  }
+  return 0;
+}
+
+void features(const Sample& s, FeatureSet set, std::span<double> row) {
+  if (row.size() != feature_count(set)) throw std::logic_error("features: the row has the wrong length");
+  std::size_t n = 0;
+  if (is_paper(set)) {
+    for (int mode = 0; mode < 3; ++mode)
+      row[n++] = s.K[mode] / std::sqrt(s.resolution);
+    if (set != FeatureSet::paper_3) row[n++] = s.toughness;
+    if (set == FeatureSet::paper_5) row[n++] = s.travelled;
+    return;
+  }
+  const double S = intensity_scale(s);
+  row[n++] = s.K[0] / S;
+  row[n++] = std::abs(s.K[1]) / S;
+  row[n++] = std::abs(s.K[2]) / S;
+  row[n++] = s.toughness / S;
+  row[n++] = s.distance_before / s.resolution;
+  row[n++] = s.distance_after / s.resolution;
+  row[n++] = s.distance_after / s.distance_before;
+  row[n++] = s.travelled / s.resolution;
+  row[n++] = s.poisson_ratio;
+  if (set == FeatureSet::dimensionless) return;
+  row[n++] = s.front_curvature * s.resolution;
+  row[n++] = s.resolution / (s.resolution + s.surface_distance);
+  const Vec3 sense = senses(s);
+  for (int mode = 0; mode < 3; ++mode)
+    row[n++] = sense[mode] * s.traction[mode] * std::sqrt(s.resolution) / S;
+}
+
+Vec3 label(const Sample& s, FeatureSet set) {
+  if (is_paper(set)) return s.opening / s.resolution;
+  const Vec3 K_after = stress_intensity(s.opening, s.distance_after, material(s));
+  return senses(s).cwiseProduct(K_after - s.K) / intensity_scale(s);
+}
+
+Vec3 opening_from_label(const Sample& s, FeatureSet set, const Vec3& label) {
+  if (is_paper(set)) return label * s.resolution;
+  const Vec3 K_after = s.K + intensity_scale(s) * senses(s).cwiseProduct(label);
+  return opening_from_intensity(K_after, s.distance_after, material(s));
+}
+
+Vec3 opening_spread(const Sample& s, FeatureSet set, const Vec3& label_spread) {
+  if (is_paper(set)) return label_spread * s.resolution;
+  return opening_from_intensity(intensity_scale(s) * label_spread, s.distance_after, material(s)).cwiseAbs();
+}
+
+Vec3 steady_opening(const Sample& s) {
+  return opening_from_intensity(s.K, s.distance_after, material(s));
+}
+
+FeatureMatrix feature_matrix(const SampleSet& samples, FeatureSet set) {
+  FeatureMatrix matrix{set, feature_count(set), {}};
+  matrix.values.resize(samples.size() * matrix.columns);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    features(samples[i], set, {matrix.values.data() + i * matrix.columns, matrix.columns});
+  return matrix;
+}
+
+}  // namespace conchoid

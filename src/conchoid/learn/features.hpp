@@ -1,0 +1,67 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "conchoid/learn/sample.hpp"
+
+namespace conchoid {
+
+/// What a forest looks at and what it predicts. Notation: K at frame n−1 [Pa√m], r⁻ and r⁺ the correlation
+/// distances at frames n−1 and n [m], Δu the opening at frame n [m], r̄ the resolution [m].
+///
+/// | set | features | label |
+/// |---|---|---|
+/// | paper-3 | K_I/√r̄, K_II/√r̄, K_III/√r̄ [Pa] | Δu/r̄ |
+/// | paper-4 | the same and K_c [Pa√m] | Δu/r̄ |
+/// | paper-5 | the same, K_c and the travelled distance [m] | Δu/r̄ |
+/// | dimensionless | K_I/S, |K_II|/S, |K_III|/S, K_c/S, r⁻/r̄, r⁺/r̄, r⁺/r⁻, travelled/r̄, ν | (K⁺ − K)/S, signs
+/// as below | | dimensionless-context | the same, κ r̄, r̄/(r̄ + surface distance), √r̄ traction/S | the same |
+///
+/// S² = K_I² + K_II² + K_III²/(1−ν) + K_c² > 0, κ the front's curvature, and K⁺ the intensity that the
+/// opening Δu at distance r⁺ stands for (displacement correlation): K⁺ = K says "K stays as it is", so the
+/// dimensionless forest learns the correction to the steady prediction and a load never seen before is met by
+/// a relative correction of the right order. A physically scaled copy (size × s, E × k, stress × k, K_c ×
+/// k√s, r̄ × s) has the same dimensionless features and labels. E enters nowhere else: elasticity is linear,
+/// so K and K_c already tell the load, and K_c/(E√r̄) would only tie a forest to one material. Signs:
+/// reversing the crack normal turns (K_II, Δu_II) to their negatives and nothing else, mirroring the body
+/// across the plane of e1 and e2 turns (K_III, Δu_III). The dimensionless sets look at |K_II| and |K_III| and
+/// give labels (and tractions) II and III relative to the signs of K_II and K_III, so both symmetries hold
+/// exactly.
+enum class FeatureSet { paper_3, paper_4, paper_5, dimensionless, dimensionless_context };
+
+/// All sets in the order of the enumeration.
+std::vector<FeatureSet> all_feature_sets();
+std::string_view name(FeatureSet set);
+/// Throws InputError that lists the known names.
+FeatureSet feature_set_from_name(std::string_view name);
+std::vector<std::string> feature_names(FeatureSet set);
+std::size_t feature_count(FeatureSet set);
+
+/// Writes the features of one sample to row (feature_count(set) numbers).
+void features(const Sample& sample, FeatureSet set, std::span<double> row);
+/// The three labels, modes I, II, III.
+Vec3 label(const Sample& sample, FeatureSet set);
+/// Inverse of label: the opening [m] in the front frame of frame n−1; uses everything of the sample but its
+/// opening.
+Vec3 opening_from_label(const Sample& sample, FeatureSet set, const Vec3& label);
+/// Standard deviation of the opening [m] that belongs to one of the label; ≥ 0 per mode.
+Vec3 opening_spread(const Sample& sample, FeatureSet set, const Vec3& label_spread);
+/// "K stays as it is": the opening [m] that K of frame n−1 gives at distance r⁺. No training.
+Vec3 steady_opening(const Sample& sample);
+
+/// Rows of features that know which set they are of.
+struct FeatureMatrix {
+  FeatureSet set = FeatureSet::paper_4;
+  std::size_t columns = 0;
+  std::vector<double> values;  ///< row after row
+
+  std::size_t rows() const { return columns ? values.size() / columns : 0; }
+  std::span<const double> row(std::size_t i) const { return {values.data() + i * columns, columns}; }
+};
+
+FeatureMatrix feature_matrix(const SampleSet& samples, FeatureSet set);
+
+}  // namespace conchoid

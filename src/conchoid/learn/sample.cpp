@@ -1,0 +1,172 @@
+#include "conchoid/learn/sample.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/learn/bytes.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr std::array<SampleField, SampleSet::field_count> field_table = {{
+    {"K_I", "Pa*sqrt(m)"},
+    {"K_II", "Pa*sqrt(m)"},
+    {"K_III", "Pa*sqrt(m)"},
+    {"toughness", "Pa*sqrt(m)"},
+    {"resolution", "m"},
+    {"distance_before", "m"},
+    {"distance_after", "m"},
+    {"travelled", "m"},
+    {"youngs_modulus", "Pa"},
+    {"poisson_ratio", "1"},
+    {"front_curvature", "1/m"},
+    {"surface_distance", "m"},
+    {"traction_I", "Pa"},
+    {"traction_II", "Pa"},
+    {"traction_III", "Pa"},
+    {"opening_I", "m"},
+    {"opening_II", "m"},
+    {"opening_III", "m"},
+}};
+
+std::array<double, SampleSet::field_count> values_of(const Sample& s) {
+  return {s.K[0],
+          s.K[1],
+          s.K[2],
+          s.toughness,
+          s.resolution,
+          s.distance_before,
+          s.distance_after,
+          s.travelled,
+          s.youngs_modulus,
+          s.poisson_ratio,
+          s.front_curvature,
+          s.surface_distance,
+          s.traction[0],
+          s.traction[1],
+          s.traction[2],
+          s.opening[0],
+          s.opening[1],
+          s.opening[2]};
+}
+
+Sample sample_from(const std::array<double, SampleSet::field_count>& v) {
+  Sample s;
+  s.K = {v[0], v[1], v[2]};
+  s.toughness = v[3];
+  s.resolution = v[4];
+  s.distance_before = v[5];
+  s.distance_after = v[6];
+  s.travelled = v[7];
+  s.youngs_modulus = v[8];
+  s.poisson_ratio = v[9];
+  s.front_curvature = v[10];
+  s.surface_distance = v[11];
+  s.traction = {v[12], v[13], v[14]};
+  s.opening = {v[15], v[16], v[17]};
+  return s;
+}
+
+/// What is wrong with a sample, empty if nothing.
+std::string defect(const Sample& s) {
+  const auto values = values_of(s);
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    const bool endless =
+        field_table[f].name == "surface_distance" && values[f] == std::numeric_limits<double>::infinity();
+    if (!std::isfinite(values[f]) && !endless)
+      return std::string(field_table[f].name) + " is not a finite number";
+  }
+  if (s.toughness <= 0) return "toughness must be positive";
+  if (s.resolution <= 0) return "resolution must be positive";
+  if (s.distance_before <= 0 || s.distance_after <= 0) return "the correlation distance must be positive";
+  if (s.youngs_modulus <= 0) return "Young's modulus must be positive";
+  if (s.poisson_ratio <= -1 || s.poisson_ratio >= 0.5) return "Poisson's ratio must lie between -1 and 0.5";
+  if (s.travelled < 0 || s.surface_distance < 0) return "travelled and surface_distance must not be negative";
+  return {};
+}
+
+}  // namespace
+
+const std::array<SampleField, SampleSet::field_count>& SampleSet::fields() {
+  return field_table;
+}
+
+void SampleSet::reserve(std::size_t n) {
+  for (auto* ids : {&run_, &frame_, &node_})
+    ids->reserve(n);
+  for (auto& column : values_)
+    column.reserve(n);
+}
+
+void SampleSet::resize(std::size_t n) {
+  for (auto* ids : {&run_, &frame_, &node_})
+    ids->resize(n);
+  for (auto& column : values_)
+    column.resize(n);
+}
+
+void SampleSet::add(const Sample& sample) {
+  run_.push_back(sample.run);
+  frame_.push_back(sample.frame);
+  node_.push_back(sample.node);
+  const auto values = values_of(sample);
+  for (std::size_t f = 0; f < field_count; ++f)
+    values_[f].push_back(values[f]);
+}
+
+void SampleSet::append(const SampleSet& other) {
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(run_, other.run_);
+  join(frame_, other.frame_);
+  join(node_, other.node_);
+  for (std::size_t f = 0; f < field_count; ++f)
+    join(values_[f], other.values_[f]);
+}
+
+Sample SampleSet::operator[](std::size_t i) const {
+  std::array<double, field_count> values;
+  for (std::size_t f = 0; f < field_count; ++f)
+    values[f] = values_[f][i];
+  Sample s = sample_from(values);
+  s.run = run_[i];
+  s.frame = frame_[i];
+  s.node = node_[i];
+  return s;
+}
+
+SampleSet SampleSet::subset(const std::vector<std::size_t>& indices) const {
+  SampleSet result;
+  result.reserve(indices.size());
+  for (const std::size_t i : indices)
+    result.add((*this)[i]);
+  return result;
+}
+
+std::uint64_t SampleSet::hash() const {
+  std::uint64_t h = hash_bytes("conchoid samples", size());
+  const auto add_column = [&h](const auto& column) {
+    ByteWriter bytes;
+    bytes.put_all(std::span<const typename std::decay_t<decltype(column)>::value_type>(column));
+    h = hash_bytes(bytes.bytes(), h);
+  };
+  add_column(run_);
+  add_column(frame_);
+  add_column(node_);
+  for (const auto& column : values_)
+    add_column(column);
+  return h;
+}
+
+void SampleSet::validate() const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    const std::string what = defect((*this)[i]);
+    if (!what.empty())
+      throw InputError("sample " + std::to_string(i) + " (run " + std::to_string(run_[i]) + ", frame " +
+                       std::to_string(frame_[i]) + ", front node " + std::to_string(node_[i]) + "): " + what +
+                       "; leave the sample out or generate the run again");
+  }
+}
+
+}  // namespace conchoid

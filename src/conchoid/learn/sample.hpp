@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "conchoid/core/vec.hpp"
+
+namespace conchoid {
+
+/// What one front element did between two frames of a run, in physical quantities (SI) so that every feature
+/// set can be computed from it later. Components I, II, III are along e1 (crack normal), e2 (forward), e3
+/// (tangent) of the front frame of frame n−1.
+struct Sample {
+  std::int32_t run = 0;
+  std::int32_t frame = 0;      ///< n, the frame the label belongs to
+  std::int32_t node = 0;       ///< the front node of frame n−1; in frame n it is the correlation node
+  Vec3 K = Vec3::Zero();       ///< stress intensity factors at frame n−1 [Pa√m]
+  double toughness = 1;        ///< K_c at the front node [Pa√m], > 0
+  double resolution = 1;       ///< r̄, target edge length of crack triangles [m], > 0
+  double distance_before = 1;  ///< distance of the correlation node from the front at frame n−1 [m], > 0
+  double distance_after = 1;   ///< the same at frame n [m], > 0: the step the front has just made
+  double travelled = 0;        ///< distance the front has travelled since the crack started [m], ≥ 0
+  double youngs_modulus = 1;   ///< E [Pa], > 0
+  double poisson_ratio = 0.3;  ///< ν, −1 < ν < ½
+  // What else is known in linear time; zero where nobody measured it.
+  double front_curvature = 0;   ///< of the front in the crack plane, positive where the crack is convex [1/m]
+  double surface_distance = 0;  ///< from the front node along e2 to the body's surface [m], may be infinite
+  Vec3 traction =
+      Vec3::Zero();  ///< σ·e1 of the uncracked body (frame 1) at the front node, in the front frame [Pa]
+  Vec3 opening =
+      Vec3::Zero();  ///< label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]
+};
+
+/// One real-valued field of a Sample.
+struct SampleField {
+  std::string_view name;
+  std::string_view unit;
+};
+
+/// Samples as structure of arrays: one array per field.
+class SampleSet {
+ public:
+  static constexpr std::size_t field_count = 18;
+  /// Names and units of the real-valued fields, in the order of field(); part of every file format.
+  static const std::array<SampleField, field_count>& fields();
+
+  std::size_t size() const { return run_.size(); }
+  bool empty() const { return run_.empty(); }
+  void reserve(std::size_t n);
+  void resize(std::size_t n);
+  void add(const Sample& sample);
+  void append(const SampleSet& other);
+  Sample operator[](std::size_t i) const;
+  SampleSet subset(const std::vector<std::size_t>& indices) const;
+
+  const std::vector<double>& field(std::size_t f) const { return values_[f]; }
+  std::vector<double>& field(std::size_t f) { return values_[f]; }
+  const std::vector<std::int32_t>& run() const { return run_; }
+  const std::vector<std::int32_t>& frame() const { return frame_; }
+  const std::vector<std::int32_t>& node() const { return node_; }
+  std::vector<std::int32_t>& run() { return run_; }
+  std::vector<std::int32_t>& frame() { return frame_; }
+  std::vector<std::int32_t>& node() { return node_; }
+
+  /// Hash of the content, the same on every machine.
+  std::uint64_t hash() const;
+  /// Throws InputError that names the first sample whose numbers are not finite or outside their range.
+  void validate() const;
+
+  bool operator==(const SampleSet&) const = default;
+
+ private:
+  std::vector<std::int32_t> run_, frame_, node_;
+  std::array<std::vector<double>, field_count> values_;
+};
+
+}  // namespace conchoid
