@@ -170,5 +170,57 @@ TEST(Corefine, RandomCurvedSheetsInTheSphere) {
   EXPECT_GT(mouths, 1000u);
 }
 
+
+double shape(const IdVector<NodeId, Vec3>& x, const std::array<NodeId, 3>& c) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k)
+    longest = std::max(longest, (x[c[(k + 1) % 3]] - x[c[k]]).squaredNorm());
+  return 2 * area_of(x, c).norm() / longest;
+}
+
+/// Ends of the mouth: nodes with one mouth edge.
+std::size_t mouth_ends(const CutComplex& cut) {
+  std::map<NodeId, int> degree;
+  for (const Edge& e : cut.mouth) {
+    ++degree[e.a];
+    ++degree[e.b];
+  }
+  return static_cast<std::size_t>(std::count_if(degree.begin(), degree.end(), [](const auto& d) { return d.second == 1; }));
+}
+
+TEST(Corefine, MergingLeavesNoSlivers) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t pieces = 0, slivers = 0, slivers_before = 0;
+  double worst = 1;
+  for (int seed = 0; seed < 400; ++seed) {
+    const Mat3 r = random_rotation(random);
+    const TriMesh body = seed % 2 ? icosphere(1 + seed % 3) : cube(2 + seed % 4);
+    const double d = 0.4 * uniform(random), bend = 0.2 * uniform(random), reach = seed % 3 ? 1.3 : 0.45;
+    const int n = 3 + seed % 11;
+    const TriMesh plane = sheet(-reach, reach + 0.1, -reach, reach, n, n, [&](double u, double v) {
+      return Vec3(r * Vec3(u, v, d + bend * u * v));
+    });
+    const CutComplex exact = corefine(body, plane), cut = corefine(body, plane, {.merge = 0.1});
+    const double exact_area = check(exact, body, plane), area = check(cut, body, plane);
+    EXPECT_NEAR(area, exact_area, 0.1 * exact_area + 0.02);
+    EXPECT_EQ(mouth_ends(cut), mouth_ends(exact));
+    for (const auto& c : exact.surface)
+      slivers_before += shape(exact.positions, c) < 0.1;
+    for (const auto& c : exact.sheet)
+      slivers_before += shape(exact.positions, c) < 0.1;
+    for (const auto* pieces_of : {&cut.surface, &cut.sheet})
+      for (const auto& c : *pieces_of) {
+        ++pieces;
+        const double q = shape(cut.positions, c);
+        slivers += q < 0.1;
+        worst = std::min(worst, q);
+      }
+    if (HasFailure()) FAIL() << "seed " << seed;
+  }
+  RecordProperty("slivers", static_cast<int>(slivers));
+  printf("pieces %zu slivers %zu before %zu worst %g\n", pieces, slivers, slivers_before, worst);
+}
+
 }  // namespace
 }  // namespace conchoid

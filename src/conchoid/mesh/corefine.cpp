@@ -5,6 +5,7 @@
 #include <string>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/mesh/corefine_merge.hpp"
 #include "conchoid/mesh/corefine_pairs.hpp"
 #include "conchoid/mesh/predicates.hpp"
 #include "conchoid/mesh/retriangulate.hpp"
@@ -46,6 +47,8 @@ class Corefinement {
     cut_sheet();
     return keep_inside();
   }
+  /// Per node of the complex that run() returned.
+  IdVector<NodeId, SurfaceSupport> supports() const { return supports_; }
 
  private:
   Points surface_triangle(TriId t) const { return triangle(surface_, surface_points_, t); }
@@ -355,7 +358,23 @@ class Corefinement {
     for (const Segment& s : segments_)
       result_.mouth.emplace_back(final_id[node(s.from).index()], final_id[node(s.to).index()]);
     std::sort(result_.mouth.begin(), result_.mouth.end());
+    set_supports(final_id);
     return std::move(result_);
+  }
+
+  void set_supports(const std::vector<NodeId>& final_id) {
+    using enum SurfaceSupport::Kind;
+    supports_.resize(result_.positions.size());
+    for (std::size_t i = 0; i < surface_.node_count(); ++i)
+      supports_[NodeId(i)].kind = vertex;
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      SurfaceSupport& support = supports_[final_id[node(k).index()]];
+      support.kind = keys_[k].kind == Key::surface_edge ? edge : face;
+      if (support.kind == edge)
+        support.edge = keys_[k].edge;
+      else
+        support.face = keys_[k].triangle;
+    }
   }
 
   const TriMesh& surface_;
@@ -369,13 +388,16 @@ class Corefinement {
   std::vector<Corners> sheet_pieces_;
   std::vector<TriId> sheet_parents_;
   CutComplex result_;
+  IdVector<NodeId, SurfaceSupport> supports_;
 };
 
 }  // namespace
 
 CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const CorefineSettings& settings) {
-  (void)settings;
-  return Corefinement(surface, sheet).run();
+  Corefinement corefinement(surface, sheet);
+  CutComplex cut = corefinement.run();
+  if (settings.merge > 0) merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge);
+  return cut;
 }
 
 }  // namespace conchoid

@@ -1,0 +1,631 @@
+#include "conchoid/mesh/corefine_merge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace conchoid {
+namespace {
+
+using Corners = std::array<NodeId, 3>;
+using Kind = SurfaceSupport::Kind;
+
+bool has(const Corners& c, NodeId n) {
+  return c[0] == n || c[1] == n || c[2] == n;
+}
+
+/// Edge of the equilateral triangle of the same area.
+double size_of(const TriMesh& mesh, TriId t) {
+  return std::sqrt(4 / std::sqrt(3.0) * area_vector(mesh, t).norm());
+}
+
+struct Piece {
+  Corners corners;
+  TriId parent;
+};
+
+/// Pieces of the surface or of the sheet, with the pieces around each node.
+class Layer {
+ public:
+  Layer(const IdVector<TriId, Corners>& corners, const std::vector<TriId>& parents, std::size_t node_count)
+      : around_(node_count) {
+    for (std::size_t p = 0; p < corners.size(); ++p)
+      add({corners[TriId(p)], parents[p]});
+  }
+  void add(const Piece& piece) {
+    for (const NodeId n : piece.corners)
+      around_[n].push_back(pieces_.size());
+    pieces_.push_back(piece);
+    alive_.push_back(true);
+  }
+  void remove(std::size_t p) {
+    alive_[p] = false;
+    for (const NodeId n : pieces_[p].corners)
+      std::erase(around_[n], p);
+  }
+  const std::vector<std::size_t>& around(NodeId n) const { return around_[n]; }
+  const Piece& operator[](std::size_t p) const { return pieces_[p]; }
+  bool alive(std::size_t p) const { return alive_[p]; }
+  std::size_t size() const { return pieces_.size(); }
+  /// Pieces that have the edge.
+  std::vector<std::size_t> on_edge(NodeId a, NodeId b) const {
+    std::vector<std::size_t> found;
+    for (const std::size_t p : around_[a])
+      if (has(pieces_[p].corners, b)) found.push_back(p);
+    return found;
+  }
+
+ private:
+  std::vector<Piece> pieces_;
+  std::vector<bool> alive_;
+  IdVector<NodeId, std::vector<std::size_t>> around_;
+};
+
+constexpr int surface_layer = 0, sheet_layer = 1;
+/// How far a node may go, in merging distances, when that removes an edge shorter than one merging distance.
+constexpr float farthest = 3;
+
+/// A change of the complex, to be checked before it is made.
+struct Change {
+  NodeId moved;  ///< invalid: no node moves
+  Vec3 to = Vec3::Zero();
+  std::vector<NodeId> gone;                         ///< nodes that disappear
+  std::array<std::vector<std::size_t>, 2> removed;  ///< per layer
+  std::array<std::vector<Piece>, 2> added;
+  std::vector<Edge> mouth_removed, mouth_added;
+};
+
+class Merger {
+ public:
+  Merger(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
+         IdVector<NodeId, SurfaceSupport> supports, double merge)
+      : cut_(cut),
+        surface_(surface),
+        sheet_(sheet),
+        supports_(std::move(supports)),
+        merge_(static_cast<float>(merge)),
+        layers_{Layer(cut.surface, cut.surface_parent, cut.positions.size()),
+                Layer(cut.sheet, cut.sheet_parent, cut.positions.size())},
+        mouth_(cut.positions.size()) {
+    for (const Edge& e : cut.mouth) {
+      mouth_[e.a].push_back(e.b);
+      mouth_[e.b].push_back(e.a);
+    }
+  }
+
+  void run() {
+    measure_sizes();
+    constexpr int most_rounds = 50;
+    for (int round = 0; round < most_rounds; ++round) {
+      const bool flipped = flip_edges();
+      const bool merged = merge_once_each();
+      if (!flipped && !merged) break;
+    }
+    write_back();
+  }
+
+ private:
+  bool on_surface(NodeId n) const { return !layers_[surface_layer].around(n).empty(); }
+  bool on_mouth(NodeId n) const { return !mouth_[n].empty(); }
+  bool is_mouth(NodeId a, NodeId b) const {
+    return std::find(mouth_[a].begin(), mouth_[a].end(), b) != mouth_[a].end();
+  }
+  const Vec3& at(NodeId n) const { return cut_.positions[n]; }
+
+  /// Local edge length at every node: mean of surface and sheet, the smallest triangles at the node decide;
+  /// where one is much finer than the other, it must not lose its own edges.
+  void measure_sizes() {
+    constexpr double infinity = std::numeric_limits<double>::infinity(), most = 3;
+    std::array<IdVector<NodeId, double>, 2> smallest;
+    for (const int l : {surface_layer, sheet_layer}) {
+      smallest[l].assign(cut_.positions.size(), infinity);
+      for (std::size_t p = 0; p < layers_[l].size(); ++p) {
+        const Piece& piece = layers_[l][p];
+        if (!on_mouth(piece.corners[0]) && !on_mouth(piece.corners[1]) && !on_mouth(piece.corners[2]))
+          continue;
+        const double size = size_of(l == surface_layer ? surface_ : sheet_, piece.parent);
+        for (const NodeId n : piece.corners)
+          smallest[l][n] = std::min(smallest[l][n], size);
+      }
+    }
+    size_.resize(cut_.positions.size());
+    for (std::size_t i = 0; i < size_.size(); ++i) {
+      const auto [low, high] = std::minmax(smallest[0][NodeId(i)], smallest[1][NodeId(i)]);
+      size_[NodeId(i)] = high == infinity ? low : std::min(std::sqrt(low * high), most * low);
+    }
+  }
+
+  // ---- candidates
+  // -------------------------------------------------------------------------------------------------------
+
+  struct Candidate {
+    float ratio;  ///< length or altitude / local edge length; float, so that equal lengths tie whatever the
+                  ///< round-off
+    NodeId moving;
+    NodeId p, q;  ///< q invalid: collapse onto p; else pull into edge pq
+    auto key() const { return std::tie(ratio, moving, p, q); }
+  };
+
+  bool merge_once_each() {
+    std::vector<Candidate> candidates;
+    for (const int l : {surface_layer, sheet_layer})
+      for (std::size_t p = 0; p < layers_[l].size(); ++p)
+        if (layers_[l].alive(p)) add_candidates(layers_[l][p].corners, candidates);
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& x, const Candidate& y) { return x.key() < y.key(); });
+    candidates.erase(std::unique(candidates.begin(), candidates.end(),
+                                 [](const Candidate& x, const Candidate& y) { return x.key() == y.key(); }),
+                     candidates.end());
+    bool changed = false;
+    std::vector<bool> touched(cut_.positions.size(), false);  // their lengths are no longer those of the list
+    for (const Candidate& c : candidates) {
+      if (touched[c.moving.index()] || touched[c.p.index()] || (c.q.valid() && touched[c.q.index()]))
+        continue;
+      if (!(c.q.valid() ? pull_into_edge(c.moving, c.p, c.q) : collapse(c.moving, c.p))) continue;
+      changed = true;
+      touched[c.moving.index()] = touched[c.p.index()] = true;
+      if (c.q.valid()) touched[c.q.index()] = true;
+    }
+    return changed;
+  }
+
+  void add_candidates(const Corners& c, std::vector<Candidate>& out) const {
+    if (!on_mouth(c[0]) && !on_mouth(c[1]) && !on_mouth(c[2])) return;
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (at(c[(k + 1) % 3]) - at(c[k])).norm());
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = c[k], p = c[(k + 1) % 3], q = c[(k + 2) % 3];
+      const double size = std::min(size_[p], size_[q]);
+      const auto short_edge =
+          static_cast<float>((at(q) - at(p)).norm() / std::max(size, std::min(longest, 1.5 * size)));
+      if (short_edge < merge_) {
+        if (may_collapse(p, q)) out.push_back({short_edge, p, q, NodeId()});
+        if (may_collapse(q, p)) out.push_back({short_edge, q, p, NodeId()});
+        add_corner_cut(short_edge, p, q, size, out);
+      }
+      const double base = (at(q) - at(p)).norm();
+      if (base == 0) continue;
+      const double altitude = area_vector2(at(a), at(p), at(q)).norm() / base;
+      const double foot = (at(a) - at(p)).dot(at(q) - at(p)) / (base * base);
+      const auto low = static_cast<float>(altitude / std::min(longest, std::min(size, size_[a])));
+      if (low < merge_ && foot > 0 && foot < 1) out.push_back({low, a, std::min(p, q), std::max(p, q)});
+    }
+  }
+
+  /// A short mouth edge from one surface edge to another cuts off their common corner: better through it.
+  void add_corner_cut(float ratio, NodeId p, NodeId q, double size, std::vector<Candidate>& out) const {
+    const SurfaceSupport &e = supports_[p], &f = supports_[q];
+    if (!is_mouth(p, q) || e.kind != Kind::edge || f.kind != Kind::edge || e.edge == f.edge) return;
+    for (const NodeId corner : {e.edge.a, e.edge.b}) {
+      if (corner != f.edge.a && corner != f.edge.b) continue;
+      for (const NodeId m : {p, q})
+        if (static_cast<float>((at(m) - at(corner)).norm() / size) < farthest * merge_)
+          out.push_back({ratio, m, corner, NodeId()});
+    }
+  }
+
+  /// Whether m may move to where n is: within its part of the surface; a node of the sheet inside the body
+  /// only onto the mouth.
+  bool may_collapse(NodeId m, NodeId n) const {
+    const SurfaceSupport &from = supports_[m], &to = supports_[n];
+    switch (from.kind) {
+      case Kind::none:
+        return on_mouth(n);
+      case Kind::vertex:
+        return false;
+      case Kind::edge:
+        return on_mouth(m) && ((to.kind == Kind::vertex && (n == from.edge.a || n == from.edge.b)) ||
+                               (to.kind == Kind::edge && to.edge == from.edge));
+      case Kind::face: {
+        const Corners& corners = surface_.corners[from.face];
+        return on_mouth(m) &&
+               ((to.kind == Kind::vertex && has(corners, n)) ||
+                (to.kind == Kind::edge && has(corners, to.edge.a) && has(corners, to.edge.b)) ||
+                (to.kind == Kind::face && to.face == from.face));
+      }
+    }
+    return false;
+  }
+
+  // ---- changes
+  // ----------------------------------------------------------------------------------------------------------
+
+  /// Moves m to n; if that would tear at the neighbours of m on a mouth that passes n closely, they go along.
+  bool collapse(NodeId m, NodeId n) {
+    if (collapse_all({m}, n)) return true;
+    if (!on_mouth(m) || on_mouth(n)) return false;
+    const std::vector<NodeId> run = run_near(m, n);
+    return run.size() > 1 && collapse_all(run, n);
+  }
+
+  /// The part of the mouth around m whose nodes may go to n and are close to it or to each other.
+  std::vector<NodeId> run_near(NodeId m, NodeId n) const {
+    const auto close = [&](NodeId x, NodeId y, float factor) {
+      return static_cast<float>((at(x) - at(y)).norm() / std::min(size_[x], size_[m])) < factor * merge_;
+    };
+    std::vector<NodeId> run{m};
+    for (std::size_t k = 0; k < run.size(); ++k)
+      for (const NodeId x : mouth_[run[k]])
+        if (std::find(run.begin(), run.end(), x) == run.end() && may_collapse(x, n) &&
+            close(x, n, farthest) && (close(x, n, 1) || close(x, run[k], 1)))
+          run.push_back(x);
+    return run;
+  }
+
+  bool collapse_all(const std::vector<NodeId>& run, NodeId n) {
+    Change change;
+    change.gone = run;
+    const auto gone = [&](NodeId x) { return std::find(run.begin(), run.end(), x) != run.end(); };
+    std::size_t ends = 0;
+    for (const NodeId m : run) {
+      if (on_mouth(m) && on_mouth(n)) {
+        if (!is_mouth(m, n)) return false;  // two arms of the mouth would touch
+        if (mouth_[m].size() == 1 && mouth_[n].size() == 1)
+          return false;                                                 // nothing of the mouth would remain
+        if (mouth_[m].size() == 1 && may_collapse(n, m)) return false;  // the end stays where it is
+      }
+      ends += mouth_[m].size() == 1;
+      for (const NodeId x : mouth_[m]) {
+        if (!gone(x) || m < x) change.mouth_removed.emplace_back(m, x);
+        if (x != n && !gone(x)) change.mouth_added.emplace_back(n, x);
+      }
+    }
+    if (ends > 1 || (on_mouth(run[0]) && !on_mouth(n) && change.mouth_added.empty())) return false;
+    for (const int l : {surface_layer, sheet_layer}) {
+      for (const NodeId m : run)
+        change.removed[l].insert(change.removed[l].end(), layers_[l].around(m).begin(),
+                                 layers_[l].around(m).end());
+      std::sort(change.removed[l].begin(), change.removed[l].end());
+      change.removed[l].erase(std::unique(change.removed[l].begin(), change.removed[l].end()),
+                              change.removed[l].end());
+      for (const std::size_t p : change.removed[l]) {
+        Piece piece = layers_[l][p];
+        std::replace_if(piece.corners.begin(), piece.corners.end(), gone, n);
+        const Corners& c = piece.corners;
+        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) change.added[l].push_back(piece);
+      }
+    }
+    if (!make(change)) return false;
+    for (const NodeId m : run) {
+      if (!cut_.sheet_node[n].valid()) cut_.sheet_node[n] = cut_.sheet_node[m];
+      size_[n] = std::min(size_[n], size_[m]);
+    }
+    return true;
+  }
+
+  /// Node m lies close to edge pq, which it shares a piece with: the edge is led through m.
+  bool pull_into_edge(NodeId m, NodeId p, NodeId q) {
+    const bool mouth_edge = is_mouth(p, q);
+    const auto on_edge = layers_[surface_layer].on_edge(p, q);
+    SurfaceSupport support = supports_[m];
+    Vec3 to = at(m);
+    const double foot = (at(m) - at(p)).dot(at(q) - at(p)) / (at(q) - at(p)).squaredNorm();
+    const Vec3 on_line =
+        foot < 0.5 ? Vec3(at(p) + foot * (at(q) - at(p))) : Vec3(at(q) + (1 - foot) * (at(p) - at(q)));
+    if (mouth_edge && !on_mouth(m) &&
+        on_surface(m)) {  // the surface's own node beside the mouth: the mouth goes there
+      const TriId face = layers_[surface_layer][on_edge[0]].parent;
+      if (face != layers_[surface_layer][on_edge[1]].parent || !has(surface_.corners[face], m)) return false;
+    } else if (mouth_edge && !on_surface(m)) {  // a node of the sheet just below the surface: it comes up
+      support = support_of_edge(p, q, on_edge);
+      to = on_line;
+    } else if (!mouth_edge && on_mouth(m) && support.kind == Kind::face &&
+               on_edge.size() == 2) {  // mouth node beside a surface edge
+      const SurfaceSupport edge = support_of_edge(p, q, on_edge);
+      if (edge.kind != Kind::edge) return false;
+      if (!has(surface_.corners[support.face], edge.edge.a) ||
+          !has(surface_.corners[support.face], edge.edge.b))
+        return false;
+      support = edge;
+      to = on_line;
+    } else {
+      return false;
+    }
+    Change change;
+    change.moved = m;
+    change.to = to;
+    for (const int l : {surface_layer, sheet_layer}) {
+      change.removed[l] = layers_[l].around(m);
+      for (const std::size_t t : layers_[l].on_edge(p, q))
+        if (!has(layers_[l][t].corners, m)) change.removed[l].push_back(t);
+      for (const std::size_t t : change.removed[l]) {
+        const Piece& piece = layers_[l][t];
+        const bool both = has(piece.corners, p) && has(piece.corners, q);
+        if (!both) {
+          change.added[l].push_back(piece);
+        } else if (!has(piece.corners, m)) {
+          for (const NodeId end : {p, q}) {
+            Piece half = piece;
+            std::replace(half.corners.begin(), half.corners.end(), end, m);
+            change.added[l].push_back(half);
+          }
+        }
+      }
+    }
+    if (mouth_edge) {
+      change.mouth_removed.emplace_back(p, q);
+      change.mouth_added.emplace_back(p, m);
+      change.mouth_added.emplace_back(m, q);
+    }
+    if (!make(change)) return false;
+    supports_[m] = support;
+    return true;
+  }
+
+  /// Part of the surface that the whole edge lies on.
+  SurfaceSupport support_of_edge(NodeId p, NodeId q, const std::vector<std::size_t>& on_edge) const {
+    SurfaceSupport support;
+    if (on_edge.size() != 2) return support;
+    const TriId s = layers_[surface_layer][on_edge[0]].parent, t = layers_[surface_layer][on_edge[1]].parent;
+    if (s == t) {
+      support.kind = Kind::face;
+      support.face = s;
+      return support;
+    }
+    for (const NodeId n : {p, q})
+      if (supports_[n].kind == Kind::edge) return supports_[n];
+    support.kind = Kind::edge;
+    support.edge = Edge(p, q);
+    return support;
+  }
+
+  /// Flips edges inside cut triangles while that improves the worse of the two pieces.
+  bool flip_edges() {
+    bool any = false;
+    for (const int l : {surface_layer, sheet_layer})
+      for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t p = 0; p < layers_[l].size(); ++p)
+          for (int k = 0; k < 3 && layers_[l].alive(p); ++k)
+            changed = flip(l, p, k) || changed;
+        any = any || changed;
+      }
+    return any;
+  }
+
+  bool flip(int l, std::size_t p, int k) {
+    const Piece piece = layers_[l][p];
+    const NodeId a = piece.corners[k], b = piece.corners[(k + 1) % 3], c = piece.corners[(k + 2) % 3];
+    if (a > b || is_mouth(a, b)) return false;
+    const auto both = layers_[l].on_edge(a, b);
+    if (both.size() != 2) return false;
+    const Piece& other = layers_[l][both[0] == p ? both[1] : both[0]];
+    if (other.parent != piece.parent) return false;
+    NodeId d;
+    for (const NodeId n : other.corners)
+      if (n != a && n != b) d = n;
+    if (c == d || !layers_[l].on_edge(c, d).empty()) return false;
+    Change change;
+    change.removed[l] = both;
+    change.added[l] = {{{a, d, c}, piece.parent}, {{d, b, c}, piece.parent}};
+    return make(change);
+  }
+
+  // ---- check and make
+  // ---------------------------------------------------------------------------------------------------
+
+  bool make(const Change& change) {
+    if (!improves_shape(change) || !stays_valid(change)) return false;
+    apply(change);
+    return true;
+  }
+
+  /// Altitude over longest edge, 0.87 at best; negative if turned over against the normal.
+  double quality(const Corners& c, const Change& change, const Vec3& normal, bool after) const {
+    std::array<Vec3, 3> x;
+    for (int k = 0; k < 3; ++k)
+      x[k] = after && c[k] == change.moved ? change.to : at(c[k]);
+    const Vec3 area = area_vector2(x[0], x[1], x[2]);
+    const double longest =
+        std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
+    if (longest == 0) return 0;
+    const double q = area.norm() / longest;
+    return area.dot(normal) > 0.5 * area.norm() * normal.norm() ? q : -q;
+  }
+
+  bool improves_shape(const Change& change) const {
+    double before = 1, after = 1;
+    for (const int l : {surface_layer, sheet_layer}) {
+      const TriMesh& mesh = l == surface_layer ? surface_ : sheet_;
+      for (const std::size_t p : change.removed[l])
+        before = std::min(
+            before, quality(layers_[l][p].corners, change, area_vector(mesh, layers_[l][p].parent), false));
+      for (const Piece& p : change.added[l])
+        after = std::min(after, quality(p.corners, change, area_vector(mesh, p.parent), true));
+    }
+    // a node less is a gain in itself, though other short edges beside it may still wait for their turn
+    const double gain = !change.gone.empty() ? 0.3 : 1 + 1e-6;
+    return after > 0 && after > std::max(before, 0.0) * gain;
+  }
+
+  /// Pieces around a node after the change.
+  std::vector<Corners> around_after(int l, NodeId n, const Change& change) const {
+    std::vector<Corners> result;
+    for (const std::size_t p : layers_[l].around(n))
+      if (std::find(change.removed[l].begin(), change.removed[l].end(), p) == change.removed[l].end())
+        result.push_back(layers_[l][p].corners);
+    for (const Piece& p : change.added[l])
+      if (has(p.corners, n)) result.push_back(p.corners);
+    return result;
+  }
+
+  bool is_mouth_after(NodeId a, NodeId b, const Change& change) const {
+    const Edge e(a, b);
+    const auto in = [&](const std::vector<Edge>& list) {
+      return std::find(list.begin(), list.end(), e) != list.end();
+    };
+    return in(change.mouth_added) || (is_mouth(a, b) && !in(change.mouth_removed));
+  }
+
+  /// Every node touched: closed fan of surface pieces, one fan of sheet pieces that starts and ends as
+  /// before.
+  bool stays_valid(const Change& change) const {
+    std::vector<NodeId> touched;
+    for (const int l : {surface_layer, sheet_layer}) {
+      for (const std::size_t p : change.removed[l])
+        touched.insert(touched.end(), layers_[l][p].corners.begin(), layers_[l][p].corners.end());
+      for (const Piece& p : change.added[l])
+        touched.insert(touched.end(), p.corners.begin(), p.corners.end());
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    return std::all_of(touched.begin(), touched.end(), [&](NodeId n) {
+      return std::find(change.gone.begin(), change.gone.end(), n) != change.gone.end() ||
+             node_valid(n, change);
+    });
+  }
+
+  bool node_valid(NodeId n, const Change& change) const {
+    const auto surface = around_after(surface_layer, n, change), sheet = around_after(sheet_layer, n, change);
+    if (surface.empty() && sheet.empty()) return false;
+    if (!surface.empty() && open_ends(n, surface) != 0) return false;
+    if (sheet.empty() != layers_[sheet_layer].around(n).empty() && sheet.empty()) return false;
+    const int ends = sheet.empty() ? 0 : open_ends(n, sheet);
+    if (ends != 0 && ends != 2) return false;
+    // mouth edges: two surface pieces and one sheet piece; other sheet edges are not in the surface
+    std::vector<NodeId> mouth;
+    for (const NodeId x : mouth_[n])
+      if (is_mouth_after(n, x, change)) mouth.push_back(x);
+    for (const Edge& e : change.mouth_added)
+      if (e.a == n || e.b == n) mouth.push_back(e.a == n ? e.b : e.a);
+    std::sort(mouth.begin(), mouth.end());
+    if (std::adjacent_find(mouth.begin(), mouth.end()) != mouth.end() ||
+        mouth.size() > std::max<std::size_t>(2, mouth_[n].size()))
+      return false;
+    const auto uses = [](const std::vector<Corners>& pieces, NodeId x) {
+      return std::count_if(pieces.begin(), pieces.end(), [&](const Corners& c) { return has(c, x); });
+    };
+    for (const NodeId x : mouth)
+      if (uses(surface, x) != 2 || uses(sheet, x) != 1) return false;
+    for (const Corners& c : sheet)
+      for (const NodeId x : c)
+        if (x != n && !std::binary_search(mouth.begin(), mouth.end(), x) && uses(surface, x) != 0)
+          return false;
+    return true;
+  }
+
+  /// Number of open ends (0 or 2) if the pieces form one fan around n, else −1.
+  static int open_ends(NodeId n, const std::vector<Corners>& pieces) {
+    std::vector<std::pair<NodeId, NodeId>> link;
+    for (const Corners& c : pieces) {
+      const int k = c[0] == n ? 0 : c[1] == n ? 1 : 2;
+      link.emplace_back(c[(k + 1) % 3], c[(k + 2) % 3]);
+    }
+    const auto find = [&](NodeId from) {
+      return std::find_if(link.begin(), link.end(), [&](const auto& l) { return l.first == from; });
+    };
+    for (const auto& l : link)
+      if (std::count_if(link.begin(), link.end(), [&](const auto& x) { return x.first == l.first; }) != 1 ||
+          std::count_if(link.begin(), link.end(), [&](const auto& x) { return x.second == l.second; }) != 1)
+        return -1;
+    std::size_t starts = 0;
+    NodeId start = link[0].first;
+    for (const auto& l : link)
+      if (std::none_of(link.begin(), link.end(), [&](const auto& x) { return x.second == l.first; })) {
+        start = l.first;
+        ++starts;
+      }
+    if (starts > 1) return -1;
+    std::size_t length = 0;
+    NodeId at = start;
+    for (auto l = find(at); l != link.end() && length < link.size(); l = find(at)) {
+      at = l->second;
+      ++length;
+    }
+    return length == link.size() ? static_cast<int>(2 * starts) : -1;
+  }
+
+  void apply(const Change& change) {
+    for (const int l : {surface_layer, sheet_layer}) {
+      for (const std::size_t p : change.removed[l])
+        layers_[l].remove(p);
+      for (const Piece& p : change.added[l])
+        layers_[l].add(p);
+    }
+    for (const Edge& e : change.mouth_removed) {
+      std::erase(mouth_[e.a], e.b);
+      std::erase(mouth_[e.b], e.a);
+    }
+    for (const Edge& e : change.mouth_added) {
+      mouth_[e.a].push_back(e.b);
+      mouth_[e.b].push_back(e.a);
+    }
+    if (change.moved.valid() && change.moved.index() >= cut_.surface_node_count)
+      cut_.positions[change.moved] = change.to;
+  }
+
+  void write_back() {
+    IdVector<NodeId, NodeId> renumbered(cut_.positions.size());
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < cut_.positions.size(); ++i) {
+      const NodeId n(i);
+      if (i >= cut_.surface_node_count && layers_[surface_layer].around(n).empty() &&
+          layers_[sheet_layer].around(n).empty())
+        continue;
+      renumbered[n] = NodeId(next);
+      cut_.positions[NodeId(next)] = cut_.positions[n];
+      cut_.sheet_node[NodeId(next)] = cut_.sheet_node[n];
+      ++next;
+    }
+    cut_.positions.resize(next);
+    cut_.sheet_node.resize(next);
+    cut_.mouth.clear();
+    for (std::size_t i = 0; i < mouth_.size(); ++i)
+      for (const NodeId b : mouth_[NodeId(i)])
+        if (NodeId(i) < b) cut_.mouth.emplace_back(renumbered[NodeId(i)], renumbered[b]);
+    std::sort(cut_.mouth.begin(), cut_.mouth.end());
+    write_layer(surface_layer, renumbered, cut_.surface, cut_.surface_parent);
+    write_layer(sheet_layer, renumbered, cut_.sheet, cut_.sheet_parent);
+  }
+
+  /// By parent, then by nodes: the order does not tell how the pieces came about.
+  void write_layer(int l, const IdVector<NodeId, NodeId>& renumbered, IdVector<TriId, Corners>& corners,
+                   std::vector<TriId>& parents) const {
+    const TriMesh& mesh = l == surface_layer ? surface_ : sheet_;
+    std::vector<std::size_t> count(mesh.triangle_count(), 0);
+    std::vector<Piece> pieces;
+    for (std::size_t p = 0; p < layers_[l].size(); ++p)
+      if (layers_[l].alive(p)) {
+        pieces.push_back(layers_[l][p]);
+        ++count[layers_[l][p].parent.index()];
+      }
+    for (Piece& p : pieces) {
+      for (NodeId& n : p.corners)
+        n = renumbered[n];
+      if (count[p.parent.index()] > 1)
+        std::rotate(p.corners.begin(), std::min_element(p.corners.begin(), p.corners.end()), p.corners.end());
+    }
+    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
+      if (x.parent != y.parent) return x.parent < y.parent;
+      Corners a = x.corners, b = y.corners;
+      std::sort(a.begin(), a.end());
+      std::sort(b.begin(), b.end());
+      return a < b;
+    });
+    corners.clear();
+    parents.clear();
+    for (const Piece& p : pieces) {
+      corners.push_back(p.corners);
+      parents.push_back(p.parent);
+    }
+  }
+
+  CutComplex& cut_;
+  const TriMesh& surface_;
+  const TriMesh& sheet_;
+  IdVector<NodeId, SurfaceSupport> supports_;
+  float merge_;
+  std::array<Layer, 2> layers_;
+  IdVector<NodeId, std::vector<NodeId>> mouth_;  ///< neighbours along the mouth
+  IdVector<NodeId, double> size_;
+};
+
+}  // namespace
+
+void merge_mouth(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
+                 IdVector<NodeId, SurfaceSupport> supports, double merge) {
+  if (!cut.mouth.empty()) Merger(cut, surface, sheet, std::move(supports), merge).run();
+}
+
+}  // namespace conchoid
