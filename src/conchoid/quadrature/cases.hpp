@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "conchoid/quadrature/far_rules.hpp"
 #include "conchoid/quadrature/pair_integrals.hpp"
 #include "conchoid/quadrature/potentials.hpp"
 
@@ -58,7 +59,7 @@ struct FarDegrees {
   int x = 0, y = 0;
   bool enough() const { return x > 0 && y > 0; }
 };
-FarDegrees far_degrees(const Panel& x, const Panel& y, double tolerance);
+FarDegrees far_degrees(Layer layer, const Panel& x, const Panel& y, double tolerance);
 Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees);
 Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees);
 

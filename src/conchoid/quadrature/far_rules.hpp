@@ -2,8 +2,11 @@
 
 namespace conchoid {
 
-/// Lowest degree of a triangle rule that integrates the kernel over a panel of that radius, seen from points
-/// no closer to its center than `distance`, to the relative tolerance; 0 when no rule does.
-int far_degree(double radius, double distance, double tolerance);
+/// Which layer's kernel: the double layer varies faster.
+enum class Layer { single, dbl };
+
+/// Lowest degree of a triangle rule that integrates the layer's potential over a panel of that radius to the
+/// relative tolerance, when no source is closer to the panel's center than `distance`; 0 when no rule does.
+int far_degree(Layer layer, double radius, double distance, double tolerance);
 
 }  // namespace conchoid

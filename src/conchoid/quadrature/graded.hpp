@@ -32,23 +32,28 @@ Eigen::Matrix<double, N, 1> integrate_graded(const Triangle& outer, const PanelP
                                              double tolerance, const F& potential) {
   const double gap = std::max({std::abs(source.height(outer[0])), std::abs(source.height(outer[1])),
                                std::abs(source.height(outer[2]))});
-  const double size = std::max({source.edge_length(0), source.edge_length(1), source.edge_length(2)});
-  const int needed = static_cast<int>(std::ceil(std::log2(size / std::max(gap, size * 1e-12)) / 2)) + 2;
+  // Finer than this the layer at an edge no longer counts.
   const int useful = static_cast<int>(std::ceil(-std::log2(tolerance) / 2)) + 1;
-  const int levels = std::clamp(needed, 2, useful);
-  const int order = std::clamp(static_cast<int>(std::ceil(-std::log10(tolerance) * 0.6)) + 3, 4, 10);
-  const std::vector<GradedNode> across = graded_toward_start(levels, order);
-  std::vector<std::vector<GradedNode>> along;
-  for (int k = 1; k <= levels; ++k)
+  // Each interval sees the steep edge from a third of its length: Gauss converges by 9 per point.
+  const int order = static_cast<int>(std::ceil(-0.8 * std::log10(tolerance))) + 2;
+  const auto levels = [&](double scale) {
+    return scale < 1 ? std::min(static_cast<int>(std::ceil(-std::log2(scale) / 2)), useful) : 0;
+  };
+  std::vector<std::vector<GradedNode>> across, along;
+  for (int k = 0; k <= useful; ++k) {
+    across.push_back(graded_toward_start(k, order));
     along.push_back(graded_toward_ends(k, order));
-
+  }
   Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
   for (const GradedPiece& piece : cut_along_edges(outer, source)) {
-    for (const GradedNode& a : across) {
-      // At depth a.t the ends of the edge are felt on the scale of a.t itself.
-      const int k = std::clamp(static_cast<int>(std::ceil(-std::log2(a.t) / 2)), 1, levels);
+    const double length = (piece.corners[1] - piece.corners[0]).norm();
+    const double height = piece.double_area / length;
+    for (const GradedNode& a : across[static_cast<std::size_t>(levels(gap / height))]) {
+      // At that depth the ends of the edge are felt on the scale of the depth, or of the gap where it is
+      // larger.
       Eigen::Matrix<double, N, 1> row = Eigen::Matrix<double, N, 1>::Zero();
-      for (const GradedNode& b : along[static_cast<std::size_t>(k - 1)]) {
+      for (const GradedNode& b :
+           along[static_cast<std::size_t>(levels(std::max(a.t * height, gap) / length))]) {
         const Vec3 base = (1 - b.t) * piece.corners[0] + b.t * piece.corners[1];
         row += b.weight * potential((1 - a.t) * base + a.t * piece.corners[2]);
       }

@@ -117,8 +117,8 @@ double radius(const Triangle& t, const Vec3& center) {
 /// ∫ over a triangle of f, smooth on the scale of the distance from `source`: cut at the longest edge until a
 /// rule suffices. False, and nothing of use in sum, when that would take more than `budget` points.
 template <int N, class F>
-bool over_cells(const Triangle& whole, double area, const PanelPotential& source, double tolerance,
-                int budget, const F& f, Eigen::Matrix<double, N, 1>& sum) {
+bool over_cells(Layer layer, const Triangle& whole, double area, const PanelPotential& source,
+                double tolerance, int budget, const F& f, Eigen::Matrix<double, N, 1>& sum) {
   struct Cell {
     Triangle corners;
     double area;
@@ -131,7 +131,7 @@ bool over_cells(const Triangle& whole, double area, const PanelPotential& source
     const Cell cell = stack[--top];
     const Triangle& t = cell.corners;
     const Vec3 center = centroid(t);
-    const int degree = far_degree(radius(t, center), distance_to_panel(center, source), tolerance);
+    const int degree = far_degree(layer, radius(t, center), distance_to_panel(center, source), tolerance);
     if (degree > 0) {
       const auto points = triangle_rule(degree).points;
       budget -= static_cast<int>(points.size());
@@ -152,8 +152,8 @@ bool over_cells(const Triangle& whole, double area, const PanelPotential& source
   return true;
 }
 
-constexpr int cheap_budget = 90;     // points: about the price of the edge form
-constexpr int costly_budget = 6000;  // points: about the price of the graded form
+constexpr int cheap_budget = 150;    // points: about the price of the edge form
+constexpr int costly_budget = 4000;  // points: about the price of the graded form
 
 }  // namespace
 
@@ -165,7 +165,8 @@ Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
   const Triangle& outer = outer_x ? pair.x : pair.y;
   const double outer_area = outer_x ? pair.area_x : pair.area_y;
   const auto potential = [&](const Vec3& p) { return inner.single_layer(p); };
-  if (over_cells<7>(outer, outer_area, inner, tolerance, cheap_budget, potential, sum)) return sum;
+  if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, cheap_budget, potential, sum))
+    return sum;
 
   const double gap = std::max(pair.noise, 1e-3 * tolerance * std::min(pair.radius_x, pair.radius_y));
   if (const std::optional<Vec3> c = common_point(pair, gap)) {
@@ -179,7 +180,8 @@ Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
              3;
     }
   }
-  if (over_cells<7>(outer, outer_area, inner, tolerance, costly_budget, potential, sum)) return sum;
+  if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, costly_budget, potential, sum))
+    return sum;
   return integrate_graded<7>(outer, inner, tolerance, potential);
 }
 
@@ -188,7 +190,8 @@ Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
   if (coplanar(pair.x, pair.of_y, pair.noise)) return Vec3::Zero();
   Vec3 sum;
   const auto potential = [&](const Vec3& p) { return pair.of_y.double_layer(p); };
-  if (over_cells<3>(pair.x, pair.area_x, pair.of_y, tolerance, cheap_budget, potential, sum)) return sum;
+  if (over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, tolerance, cheap_budget, potential, sum))
+    return sum;
 
   if (const std::optional<Vec3> c = common_point(pair, 0)) {
     const Vec3 at_c = pair.of_y.corner_functions(*c);
@@ -208,7 +211,8 @@ Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
              });
     }
   }
-  if (over_cells<3>(pair.x, pair.area_x, pair.of_y, tolerance, costly_budget, potential, sum)) return sum;
+  if (over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, tolerance, costly_budget, potential, sum))
+    return sum;
   return integrate_graded<3>(pair.x, pair.of_y, tolerance, potential);
 }
 

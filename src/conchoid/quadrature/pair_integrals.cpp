@@ -55,7 +55,7 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
     default:
       break;
   }
-  const FarDegrees degrees = far_degrees(x, y, tolerance);
+  const FarDegrees degrees = far_degrees(Layer::single, x, y, tolerance);
   return degrees.enough() ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
 }
 
@@ -163,7 +163,7 @@ DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) con
   const int shared = shared_corners(x, y).count;
   if (shared == 3) return {};
   if (shared > 0) return to_pair(touching_double_layer(touching_pair(x, y), shared, tolerance_));
-  const FarDegrees degrees = far_degrees(x, y, tolerance_);
+  const FarDegrees degrees = far_degrees(Layer::dbl, x, y, tolerance_);
   return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
 }
 
