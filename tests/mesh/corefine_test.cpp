@@ -170,7 +170,6 @@ TEST(Corefine, RandomCurvedSheetsInTheSphere) {
   EXPECT_GT(mouths, 1000u);
 }
 
-
 double shape(const IdVector<NodeId, Vec3>& x, const std::array<NodeId, 3>& c) {
   double longest = 0;
   for (int k = 0; k < 3; ++k)
@@ -185,7 +184,8 @@ std::size_t mouth_ends(const CutComplex& cut) {
     ++degree[e.a];
     ++degree[e.b];
   }
-  return static_cast<std::size_t>(std::count_if(degree.begin(), degree.end(), [](const auto& d) { return d.second == 1; }));
+  return static_cast<std::size_t>(
+      std::count_if(degree.begin(), degree.end(), [](const auto& d) { return d.second == 1; }));
 }
 
 TEST(Corefine, MergingLeavesNoSlivers) {
@@ -198,9 +198,8 @@ TEST(Corefine, MergingLeavesNoSlivers) {
     const TriMesh body = seed % 2 ? icosphere(1 + seed % 3) : cube(2 + seed % 4);
     const double d = 0.4 * uniform(random), bend = 0.2 * uniform(random), reach = seed % 3 ? 1.3 : 0.45;
     const int n = 3 + seed % 11;
-    const TriMesh plane = sheet(-reach, reach + 0.1, -reach, reach, n, n, [&](double u, double v) {
-      return Vec3(r * Vec3(u, v, d + bend * u * v));
-    });
+    const TriMesh plane = sheet(-reach, reach + 0.1, -reach, reach, n, n,
+                                [&](double u, double v) { return Vec3(r * Vec3(u, v, d + bend * u * v)); });
     const CutComplex exact = corefine(body, plane), cut = corefine(body, plane, {.merge = 0.1});
     const double exact_area = check(exact, body, plane), area = check(cut, body, plane);
     EXPECT_NEAR(area, exact_area, 0.1 * exact_area + 0.02);
@@ -220,6 +219,106 @@ TEST(Corefine, MergingLeavesNoSlivers) {
   }
   RecordProperty("slivers", static_cast<int>(slivers));
   printf("pieces %zu slivers %zu before %zu worst %g\n", pieces, slivers, slivers_before, worst);
+}
+
+struct Scene {
+  TriMesh body, sheet;
+};
+
+/// Bodies and sheets in special position (nodes of each on faces, edges and nodes of the other) and in
+/// general position.
+Scene scene(int seed, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Mat3 r = random_rotation(random);
+  const int n = 2 + seed % 4;
+  const double d = 0.3 * uniform(random), bend = 0.3 * uniform(random);
+  switch (seed % 4) {
+    case 0:
+      return {cube(n), shapes::sheet(-0.5, 0.75, -0.5, 0.5, 2 * n, n,
+                                     [](double u, double v) { return Vec3(u, v, 0); })};
+    case 1:
+      return {cube(4), shapes::sheet(-0.75, 0.75, -0.75, 0.75, 6, 6,
+                                     [](double u, double v) { return Vec3(u, v, 0.5 * (u + v)); })};
+    case 2:
+      return {icosphere(2), shapes::sheet(-1.2, 0.6, -1, 1.3, 7, 8, [&](double u, double v) {
+                return Vec3(r * Vec3(u, v, d + bend * u * v));
+              })};
+    default:
+      return {cube(n), disc(Vec3(0.5, 0, 0), Vec3(0, 1, 0), Vec3(0.6, 0, 0.8), 0.5, 4)};
+  }
+}
+
+void expect_same_bits(const CutComplex& a, const CutComplex& b) {
+  ASSERT_EQ(a.positions.size(), b.positions.size());
+  for (std::size_t i = 0; i < a.positions.size(); ++i)
+    EXPECT_TRUE((a.positions[NodeId(i)].array() == b.positions[NodeId(i)].array()).all());
+  EXPECT_EQ(a.sheet_node, b.sheet_node);
+  EXPECT_EQ(a.surface, b.surface);
+  EXPECT_EQ(a.surface_parent, b.surface_parent);
+  EXPECT_EQ(a.sheet, b.sheet);
+  EXPECT_EQ(a.sheet_parent, b.sheet_parent);
+  EXPECT_EQ(a.mouth, b.mouth);
+}
+
+void turn_round(IdVector<TriId, std::array<NodeId, 3>>& pieces) {
+  for (auto& c : pieces) {
+    std::swap(c[1], c[2]);
+    std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+  }
+}
+
+TEST(Corefine, ReflectedAndScaledInputGivesTheSameBits) {
+  std::mt19937 random(6);
+  for (int seed = 0; seed < 80; ++seed)
+    for (const double merge : {0.0, 0.1}) {
+      const Scene s = scene(seed, random);
+      CutComplex cut = corefine(s.body, s.sheet, {merge});
+      check(cut, s.body, s.sheet);
+      for (const double factor : {0x1p-20, 8.0, 0x1p60}) {
+        const auto grow = [&](const Vec3& x) { return Vec3(factor * x); };
+        CutComplex scaled = corefine(mapped(s.body, grow), mapped(s.sheet, grow), {merge});
+        for (Vec3& x : scaled.positions)
+          x /= factor;
+        expect_same_bits(scaled, cut);
+      }
+      CutComplex reflected = corefine(mirrored(s.body), mirrored(s.sheet), {merge});
+      for (Vec3& x : reflected.positions)
+        x.x() = -x.x();
+      turn_round(reflected.surface);
+      turn_round(reflected.sheet);
+      for (auto* pieces : {&cut.surface, &cut.sheet})
+        for (auto& c : *pieces)
+          std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+      expect_same_bits(reflected, cut);
+      if (HasFailure()) FAIL() << "seed " << seed << " merge " << merge;
+    }
+}
+
+TEST(Corefine, AlmostSpecialPositionsStayValid) {
+  std::mt19937 random(7);
+  for (int seed = 0; seed < 200; ++seed)
+    for (const double merge : {0.0, 0.1}) {
+      const Scene s = scene(seed, random);
+      const Mat3 r = random_rotation(random);
+      const Vec3 shift = seed % 3 ? Vec3(10.0 * (seed % 7), -1, 3) : Vec3(0, 0, 0);
+      const auto move = [&](const Vec3& x) { return Vec3(r * x + shift); };
+      const TriMesh body = mapped(s.body, move), sheet = mapped(s.sheet, move);
+      check(corefine(body, sheet, {merge}), body, sheet);
+      if (HasFailure()) FAIL() << "seed " << seed << " merge " << merge;
+    }
+}
+
+TEST(Corefine, TwentyThousandByHundredThousandTriangles) {
+  const TriMesh body = icosphere(6),
+                wavy = shapes::sheet(-1.2, 1.2, -1.2, 1.2, 100, 100, [](double u, double v) {
+                  return Vec3(u, v, 0.1 * std::sin(9 * u) * std::cos(7 * v));
+                });
+  const auto start = std::chrono::steady_clock::now();
+  const CutComplex cut = corefine(body, wavy);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RecordProperty("milliseconds", static_cast<int>(1000 * seconds));
+  printf("%zu x %zu triangles: %g s\n", body.triangle_count(), wavy.triangle_count(), seconds);
+  check(cut, body, wavy);
 }
 
 }  // namespace

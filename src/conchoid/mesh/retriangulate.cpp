@@ -12,8 +12,9 @@ namespace conchoid {
 namespace {
 
 using Index = int;
-using Polygon = std::vector<Index>;  ///< closed walk, counter-clockwise; nodes come twice along a slit
-using Link = std::pair<Index, Index>;
+using Polygon = std::vector<Index>;    ///< closed walk, counter-clockwise; nodes come twice along a slit
+using Link = std::pair<Index, Index>;  ///< nodes of an edge, ascending
+using Diagonal = std::pair<std::size_t, std::size_t>;  ///< places in a walk, ascending
 
 Link link(Index a, Index b) {
   return a < b ? Link(a, b) : Link(b, a);
@@ -323,27 +324,39 @@ class LocalTriangle {
 
   void triangulate(Polygon polygon, std::vector<std::array<Index, 3>>& out) {
     cut_ears(polygon, out);
-    for (int attempt = 0;; ++attempt) {
-      std::vector<std::array<Index, 3>> result;
-      optimal_triangulation(polygon, result);
-      // both banks of a straight slit may have chosen the same diagonal: forbid it and try again
-      std::map<Link, int> count;
-      for (const auto& t : result)
-        for (int k = 0; k < 3; ++k)
-          ++count[link(t[k], t[(k + 1) % 3])];
-      bool doubled = false;
-      for (const auto& [l, uses] : count)
-        if (uses > 2) {
-          used_.insert(l);
-          doubled = true;
-        }
-      if (doubled && attempt < 10) continue;
-      if (doubled) throw ComputationError("a cut triangle could not be divided into pieces");
-      for (const auto& [l, uses] : count)
-        used_.insert(l);
-      out.insert(out.end(), result.begin(), result.end());
-      return;
+    if (polygon.size() < 3) return;
+    std::vector<std::array<std::size_t, 3>> places;
+    int budget = 1000;
+    if (!triangulate_once_each(polygon, {}, budget, places))
+      throw ComputationError("a cut triangle could not be divided into pieces");
+    for (const auto& t : places) {
+      out.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
+      for (int k = 0; k < 3; ++k)
+        used_.insert(link(polygon[t[k]], polygon[t[(k + 1) % 3]]));
     }
+  }
+
+  /// Optimal triangulation in which no diagonal comes twice: both banks of a straight slit like to choose the
+  /// same one. Then one of them keeps it and the others are forbidden it.
+  bool triangulate_once_each(const Polygon& p, const std::set<Diagonal>& forbidden, int& budget,
+                             std::vector<std::array<std::size_t, 3>>& places) const {
+    places.clear();
+    if (--budget < 0 || !optimal_triangulation(p, forbidden, places)) return false;
+    std::map<Link, std::set<Diagonal>> diagonals;
+    for (const auto& t : places)
+      for (const auto& [i, j] : {Diagonal(t[0], t[1]), Diagonal(t[1], t[2]), Diagonal(t[0], t[2])})
+        if (j - i > 1 && j - i < p.size() - 1) diagonals[link(p[i], p[j])].insert({i, j});
+    const auto twice =
+        std::find_if(diagonals.begin(), diagonals.end(), [](const auto& d) { return d.second.size() > 1; });
+    if (twice == diagonals.end()) return true;
+    const std::set<Diagonal> rivals = twice->second;
+    for (const Diagonal& keeper : rivals) {
+      std::set<Diagonal> next = forbidden;
+      for (const Diagonal& rival : rivals)
+        if (rival != keeper) next.insert(rival);
+      if (triangulate_once_each(p, next, budget, places)) return true;
+    }
+    return false;
   }
 
   /// Takes well-shaped triangles off a large polygon, the best first, as long as no other node comes near
@@ -396,10 +409,11 @@ class LocalTriangle {
     }
   }
 
-  /// Triangulation of least total badness (dynamic programming over sub-polygons).
-  void optimal_triangulation(const Polygon& p, std::vector<std::array<Index, 3>>& out) const {
+  /// Triangulation of least total badness (dynamic programming over sub-polygons): places in the walk,
+  /// ascending per triangle. False if there is none.
+  bool optimal_triangulation(const Polygon& p, const std::set<Diagonal>& forbidden,
+                             std::vector<std::array<std::size_t, 3>>& out) const {
     const std::size_t n = p.size();
-    if (n < 3) return;
     std::vector<double> cost(n * n, 0.0);
     std::vector<std::size_t> apex(n * n, 0);
     for (std::size_t span = 2; span < n; ++span)
@@ -407,8 +421,7 @@ class LocalTriangle {
         const std::size_t j = i + span;
         double best = infinity;
         std::size_t best_k = 0;
-        const bool whole = span == n - 1;
-        if (whole || allowed(p[i], p[j]))
+        if (span == n - 1 || (allowed(p[i], p[j]) && !forbidden.contains({i, j})))
           for (std::size_t k = i + 1; k < j; ++k) {
             if (p[k] == p[i] || p[k] == p[j]) continue;
             const double c = cost[i * n + k] + cost[k * n + j] + badness(p[i], p[k], p[j]);
@@ -421,17 +434,18 @@ class LocalTriangle {
         cost[i * n + j] = best;
         apex[i * n + j] = best_k;
       }
-    if (cost[n - 1] == infinity) throw ComputationError("a cut triangle could not be divided into pieces");
-    std::vector<std::pair<std::size_t, std::size_t>> stack{{0, n - 1}};
+    if (cost[n - 1] == infinity) return false;
+    std::vector<Diagonal> stack{{0, n - 1}};
     while (!stack.empty()) {
       const auto [i, j] = stack.back();
       stack.pop_back();
       if (j - i < 2) continue;
       const std::size_t k = apex[i * n + j];
-      out.push_back({p[i], p[k], p[j]});
+      out.push_back({i, k, j});
       stack.push_back({i, k});
       stack.push_back({k, j});
     }
+    return true;
   }
 
   const TriangleCut& cut_;
