@@ -1,0 +1,109 @@
+#include "conchoid/crack/initiation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace conchoid {
+
+namespace {
+
+constexpr double kEqual = 1e-3;          ///< relative difference in severity that does not count
+constexpr double kPerpendicular = 1e-6;  ///< cosine below which a direction does not fix a sign
+constexpr int kRings = 2;
+
+/// ±v on the positive side of the first reference that is not perpendicular to it.
+Vec3 with_fixed_sign(const Vec3& v, const std::array<Vec3, 3>& references) {
+  for (const Vec3& reference : references) {
+    const double c = v.dot(reference);
+    if (std::abs(c) > kPerpendicular * v.norm() * reference.norm()) return c > 0 ? v : Vec3(-v);
+  }
+  return v;
+}
+
+Vec3 in_plane(const Vec3& v, const Vec3& normal) {
+  return v - v.dot(normal) * normal;
+}
+
+CrackSite make_site(const InitiationCandidate& c, double radius) {
+  const Vec3 to_first = c.corners[0] - c.position, to_second = c.corners[1] - c.position;
+  const std::array<Vec3, 3> references{to_first, to_second, c.inward_normal};
+  CrackSite site;
+  site.triangle = c.triangle;
+  site.center = c.position;
+  site.normal = with_fixed_sign(c.direction.normalized(), references);
+  Vec3 inward = in_plane(c.inward_normal, site.normal);
+  if (inward.norm() < 0.1) inward = in_plane(to_first / to_first.norm(), site.normal);
+  site.inward = inward.normalized();
+  site.side = with_fixed_sign(cross(site.normal, site.inward), references);
+  site.radius = radius;
+  site.severity = c.principal_stress / c.strength;
+  return site;
+}
+
+bool closer_than(double distance, const Vec3& x, const std::vector<Vec3>& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](const Vec3& node) { return (node - x).squaredNorm() < distance * distance; });
+}
+
+/// Lowest triangle id among the candidates within 0.1 % of the most severe; end if there is none.
+auto next_candidate(const std::vector<InitiationCandidate>& left) {
+  const auto severity = [](const InitiationCandidate& c) { return c.principal_stress / c.strength; };
+  double largest = 0;
+  for (const auto& c : left)
+    largest = std::max(largest, severity(c));
+  auto best = left.end();
+  for (auto it = left.begin(); it != left.end(); ++it)
+    if (severity(*it) >= (1 - kEqual) * largest && (best == left.end() || it->triangle < best->triangle))
+      best = it;
+  return best;
+}
+
+}  // namespace
+
+std::vector<CrackSite> choose_sites(const std::vector<InitiationCandidate>& candidates,
+                                    const std::vector<Vec3>& crack_nodes,
+                                    const InitiationSettings& settings) {
+  std::vector<InitiationCandidate> left;
+  for (const auto& c : candidates)
+    if (c.principal_stress > c.strength && !closer_than(settings.min_distance, c.position, crack_nodes))
+      left.push_back(c);
+  std::vector<CrackSite> sites;
+  while (sites.size() < settings.most && !left.empty()) {
+    const auto best = next_candidate(left);
+    sites.push_back(make_site(*best, settings.resolution));
+    const TriId taken = best->triangle;
+    std::erase_if(left, [&](const InitiationCandidate& c) {
+      return c.triangle == taken || (c.position - sites.back().center).norm() < settings.min_distance;
+    });
+  }
+  return sites;
+}
+
+TriMesh disc_sheet(const CrackSite& site) {
+  TriMesh mesh;
+  mesh.positions.push_back(site.center);
+  for (int k = 1; k <= kRings; ++k)
+    for (int j = 0; j < 6 * k; ++j) {
+      const double phi = 2 * std::numbers::pi * j / (6 * k);
+      mesh.positions.push_back(site.center + site.radius * k / kRings *
+                                                 (std::cos(phi) * site.inward + std::sin(phi) * site.side));
+    }
+  const bool turned = cross(site.inward, site.side).dot(site.normal) < 0;
+  const auto node = [](int ring, int j) {
+    return NodeId(ring == 0 ? 0 : 1 + 3 * ring * (ring - 1) + j % (6 * ring));
+  };
+  const auto add = [&](NodeId a, NodeId b, NodeId c) {
+    mesh.corners.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
+  };
+  for (int k = 1; k <= kRings; ++k)
+    for (int sector = 0; sector < 6; ++sector)
+      for (int j = 0; j < k; ++j) {
+        const int out = sector * k + j, in = sector * (k - 1) + j;
+        add(node(k - 1, in), node(k, out), node(k, out + 1));
+        if (j + 1 < k) add(node(k - 1, in), node(k, out + 1), node(k - 1, in + 1));
+      }
+  return mesh;
+}
+
+}  // namespace conchoid
