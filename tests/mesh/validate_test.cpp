@@ -138,9 +138,12 @@ const std::vector<BrokenMesh> broken_meshes = {
      {"no area"}},
     {"thin as nothing",
      [](TriMesh& m) {
-       m = icosphere(1, 2);
-       for (Vec3& x : m.positions)
-         x.z() *= 1e-14;
+       m = {};
+       m.positions.assign({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 1e-14)});
+       m.corners.assign({{NodeId(0), NodeId(2), NodeId(1)},
+                         {NodeId(0), NodeId(1), NodeId(3)},
+                         {NodeId(1), NodeId(2), NodeId(3)},
+                         {NodeId(2), NodeId(0), NodeId(3)}});
      },
      DefectKind::no_volume,
      {"no volume", "thickness"}},

@@ -262,7 +262,11 @@ class BoxPairs {
 }  // namespace
 
 bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t) {
-  std::array<NodeId, 3> a = mesh.corners[s], b = mesh.corners[t];
+  return triangles_intersect(mesh.positions, mesh.corners[s], mesh.corners[t]);
+}
+
+bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<NodeId, 3> a,
+                         std::array<NodeId, 3> b) {
   // Bring the common nodes to the front, in the same places of both.
   std::size_t common = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -273,10 +277,10 @@ bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t) {
         ++common;
         break;
       }
-  const auto x = [&](NodeId n) -> const Vec3& { return mesh.positions[n]; };
+  const auto x = [&](NodeId n) -> const Vec3& { return positions[n]; };
   switch (common) {
     case 0:
-      return separate_triangles_meet(mesh.triangle(s), mesh.triangle(t));
+      return separate_triangles_meet({x(a[0]), x(a[1]), x(a[2])}, {x(b[0]), x(b[1]), x(b[2])});
     case 1:
       return triangles_at_node_meet(x(a[0]), x(a[1]), x(a[2]), x(b[1]), x(b[2]));
     case 2:

@@ -11,6 +11,10 @@ namespace conchoid {
 /// Exact: decided by the signs of determinants of the coordinates. Both must be free of repeated nodes.
 bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t);
 
+/// The same for two triples of nodes.
+bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<NodeId, 3> a,
+                         std::array<NodeId, 3> b);
+
 /// All pairs of triangles that intersect, s < t, ascending; stops after `limit` pairs.
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit);
 

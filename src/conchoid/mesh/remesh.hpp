@@ -1,0 +1,30 @@
+#pragma once
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// What came out of `remesh`.
+struct RemeshReport {
+  int triangles = 0;
+  double smallest_angle = 0;  ///< [degrees]
+  int below_15_degrees = 0;   ///< triangles with a smaller angle than 15°
+  double hausdorff_distance =
+      0;  ///< [m] largest distance between the surfaces, both ways, at nodes, edge middles and centroids
+};
+
+/// A closed surface as about `target_triangles` (within 10 % where the shape allows) well-shaped triangles
+/// for boundary elements: closed, manifold, oriented as the original, free of self-intersections, near the
+/// original. Edges sharper than 40° are kept as edges where they form lines longer than two triangles. First
+/// decimation by edge collapses (quadric errors, Garland & Heckbert 1997), then isotropic remeshing by
+/// splits, collapses, flips and tangential smoothing back on the original (Botsch & Kobbelt 2004); every step
+/// is refused that would break the manifold, fold the surface or make it intersect itself. Same input, same
+/// bits; scaling by a power of two scales the result exactly. `detailed` must be a valid body (validate.hpp).
+/// Throws InputError for fewer than 20 triangles asked for and ComputationError if the target cannot be met
+/// within 10 %.
+TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* report = nullptr);
+
+/// Largest distance of nodes, edge middles and centroids of each mesh from the other [m].
+double sampled_hausdorff_distance(const TriMesh& a, const TriMesh& b);
+
+}  // namespace conchoid
