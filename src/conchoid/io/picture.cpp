@@ -136,7 +136,7 @@ class View {
         range_(range) {
     for (const PictureMesh& m : panel.meshes)
       normals_.push_back(corner_normals(m.mesh, m.face_kind));
-    floor_ = 0;
+    floor_ = own.points.empty() ? -1.0 : 1e30;
     for (const Vec3& point : own.points)
       floor_ = std::min(floor_, (point - extent.center).dot(up_) / extent.radius - 2e-3);
     key_ = (-0.42 * camera_.right + 0.90 * up_ + 0.62 * camera_.back).normalized();

@@ -1,0 +1,222 @@
+#include "conchoid/io/fragments_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "conchoid/io/corner_normals.hpp"
+#include "conchoid/io/ply.hpp"
+#include "io/samples.hpp"
+
+#ifdef CONCHOID_HAVE_ASSIMP
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#endif
+
+using namespace conchoid;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Glb {
+  Json json;
+  std::string bytes;
+};
+
+template <class T>
+T value_at(const std::string& bytes, std::size_t at) {
+  T value{};
+  EXPECT_LE(at + sizeof(T), bytes.size());
+  if (at + sizeof(T) <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
+}
+
+/// Takes the container apart as the specification describes it.
+Glb opened(const std::string& file) {
+  EXPECT_EQ(file.substr(0, 4), "glTF");
+  EXPECT_EQ(value_at<std::uint32_t>(file, 4), 2u);
+  EXPECT_EQ(value_at<std::uint32_t>(file, 8), file.size());
+  const std::size_t text = value_at<std::uint32_t>(file, 12);
+  EXPECT_EQ(text % 4, 0u);
+  EXPECT_EQ(file.substr(16, 4), "JSON");
+  const std::size_t size = value_at<std::uint32_t>(file, 20 + text);
+  EXPECT_EQ(size % 4, 0u);
+  EXPECT_EQ(file.substr(24 + text, 4), std::string("BIN\0", 4));
+  EXPECT_EQ(28 + text + size, file.size());
+  return {Json::parse(file.substr(20, text)), file.substr(28 + text)};
+}
+
+/// Bytes of an accessor, after checking its view.
+std::string accessed(const Glb& glb, const Json& accessor, std::size_t element_size) {
+  const Json& view = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+  const auto offset = view["byteOffset"].get<std::size_t>(), length = view["byteLength"].get<std::size_t>();
+  EXPECT_EQ(offset % 4, 0u);
+  EXPECT_LE(offset + length, glb.json["buffers"][0]["byteLength"].get<std::size_t>());
+  EXPECT_EQ(length, accessor["count"].get<std::size_t>() * element_size);
+  return glb.bytes.substr(offset, length);
+}
+
+void expect_valid_primitive(const Glb& glb, const Json& primitive, std::size_t triangles) {
+  const Json& accessors = glb.json["accessors"];
+  const Json& position = accessors[primitive["attributes"]["POSITION"].get<std::size_t>()];
+  const Json& normal = accessors[primitive["attributes"]["NORMAL"].get<std::size_t>()];
+  const Json& index = accessors[primitive["indices"].get<std::size_t>()];
+  const std::size_t vertices = position["count"];
+  EXPECT_EQ(normal["count"], vertices);
+  EXPECT_EQ(index["count"], 3 * triangles);
+  const std::string x = accessed(glb, position, 12), n = accessed(glb, normal, 12),
+                    corners = accessed(glb, index, 4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    float low = INFINITY, high = -INFINITY;
+    for (std::size_t v = 0; v < vertices; ++v) {
+      low = std::min(low, value_at<float>(x, 12 * v + 4 * i));
+      high = std::max(high, value_at<float>(x, 12 * v + 4 * i));
+    }
+    EXPECT_EQ(position["min"][i].get<float>(), low);
+    EXPECT_EQ(position["max"][i].get<float>(), high);
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    double length2 = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      length2 += std::pow(value_at<float>(n, 12 * v + 4 * i), 2);
+    EXPECT_NEAR(length2, 1, 1e-5);
+  }
+  for (std::size_t i = 0; i < 3 * triangles; ++i)
+    EXPECT_LT(value_at<std::uint32_t>(corners, 4 * i), vertices);
+}
+
+}  // namespace
+
+TEST(CornerNormals, BoxStaysSharpAndSphereLikeFanIsSmooth) {
+  const TriMesh cube = box({0, 0, 0}, {1, 1, 1});
+  const auto normals = corner_normals(cube, {});
+  for (std::size_t t = 0; t < 12; ++t)
+    for (const Vec3& n : normals[t])
+      EXPECT_NEAR((n - unit_normal(cube, TriId(t))).norm(), 0, 1e-14);
+
+  TriMesh roof = sheet(2, 0);
+  for (Vec3& x : roof.positions)
+    x.z() = -0.1 * std::abs(x.x());  // ridge along y, 11° to each side
+  const auto bent = corner_normals(roof, {});
+  const std::vector<FaceKind> halves{FaceKind::original, FaceKind::original, FaceKind::fracture,
+                                     FaceKind::fracture, FaceKind::original, FaceKind::original,
+                                     FaceKind::fracture, FaceKind::fracture};
+  const auto split = corner_normals(roof, halves);
+  EXPECT_NEAR(bent[0][1].x(), 0, 0.06);  // on the ridge: the mean of both sides
+  EXPECT_NEAR(split[0][1].x(), unit_normal(roof, TriId(0)).x(), 1e-14);  // unless they differ in kind
+}
+
+TEST(FragmentPly, KeepsNodesKindsAndSources) {
+  const ScratchFolder folder;
+  const Fragment lower = broken_cube(0.1)[0];
+  write_fragment_ply(folder / "f.ply", lower);
+  const PlyMesh back = read_ply(folder / "f.ply");
+  EXPECT_EQ(back.mesh.positions, lower.mesh.positions);
+  EXPECT_EQ(back.mesh.corners, lower.mesh.corners);
+  EXPECT_EQ(back.face_kind, lower.face_kind);
+  EXPECT_EQ(back.source, lower.source);
+  EXPECT_NEAR(enclosed_volume(back.mesh), 0.6, 1e-15);
+}
+
+TEST(FragmentsGlb, FollowsTheSpecification) {
+  const ScratchFolder folder;
+  const auto pieces = broken_cube(0.1);
+  write_fragments_glb(folder / "f.glb", pieces);
+  const Glb glb = opened(file_content(folder / "f.glb"));
+  EXPECT_EQ(glb.json["asset"]["version"], "2.0");
+  ASSERT_EQ(glb.json["nodes"].size(), 3u);
+  EXPECT_EQ(glb.json["nodes"][0]["children"], Json({1, 2}));
+  ASSERT_EQ(glb.json["materials"].size(), 2u);
+  EXPECT_EQ(glb.json["materials"][1]["name"], "fracture");
+  for (std::size_t f = 0; f < 2; ++f) {
+    const Json& node = glb.json["nodes"][f + 1];
+    EXPECT_DOUBLE_EQ(node["extras"]["mass"].get<double>(), pieces[f].mass);
+    EXPECT_NEAR(node["translation"][2].get<double>(), pieces[f].center_of_mass.z(), 1e-7);
+    const Json& primitives = glb.json["meshes"][node["mesh"].get<std::size_t>()]["primitives"];
+    ASSERT_EQ(primitives.size(), 2u);
+    EXPECT_EQ(primitives[0]["material"], 0);
+    expect_valid_primitive(glb, primitives[0], 10);
+    expect_valid_primitive(glb, primitives[1], 2);
+    // A box face has its own four vertices: five grey faces, one warm one.
+    EXPECT_EQ(glb.json["accessors"][primitives[0]["attributes"]["POSITION"].get<std::size_t>()]["count"], 20);
+    EXPECT_EQ(glb.json["accessors"][primitives[1]["attributes"]["POSITION"].get<std::size_t>()]["count"], 4);
+  }
+}
+
+TEST(FragmentsGlb, UncutBodyHasOneMaterialInUse) {
+  const ScratchFolder folder;
+  std::vector<Fragment> pieces{broken_cube(0.5)[0]};
+  pieces[0].face_kind.assign(12, FaceKind::original);
+  write_fragments_glb(folder / "f.glb", pieces);
+  const Glb glb = opened(file_content(folder / "f.glb"));
+  ASSERT_EQ(glb.json["meshes"].size(), 1u);
+  EXPECT_EQ(glb.json["meshes"][0]["primitives"].size(), 1u);
+}
+
+TEST(FragmentObj, TwoGroupsAndAMaterialFile) {
+  const ScratchFolder folder;
+  write_fragment_obj(folder / "f.obj", broken_cube(0.1)[1]);
+  const std::string obj = file_content(folder / "f.obj"), mtl = file_content(folder / "f.mtl");
+  EXPECT_NE(obj.find("mtllib f.mtl"), std::string::npos);
+  for (const char* name : {"original", "fracture"}) {
+    EXPECT_NE(obj.find(std::string("usemtl ") + name), std::string::npos);
+    EXPECT_NE(mtl.find(std::string("newmtl ") + name), std::string::npos);
+  }
+}
+
+#ifdef CONCHOID_HAVE_ASSIMP
+namespace {
+
+struct Counts {
+  std::size_t faces = 0, places = 0;
+  double volume = 0;
+};
+
+/// What an independent reader finds: triangles, different vertex places, enclosed volume.
+Counts counted(const std::filesystem::path& path) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_PreTransformVertices);
+  if (!scene) ADD_FAILURE() << importer.GetErrorString();
+  Counts counts;
+  if (!scene) return counts;
+  std::set<std::array<float, 3>> places;
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene->mMeshes[m];
+    counts.faces += mesh.mNumFaces;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v)
+      places.insert({mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z});
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      Vec3 x[3];
+      for (unsigned k = 0; k < 3; ++k) {
+        const aiVector3D& p = mesh.mVertices[mesh.mFaces[f].mIndices[k]];
+        x[k] = {p.x, p.y, p.z};
+      }
+      counts.volume += x[0].dot(cross(x[1], x[2])) / 6;
+    }
+  }
+  counts.places = places.size();
+  return counts;
+}
+
+}  // namespace
+
+TEST(FragmentFiles, AnotherReaderFindsTheSamePieces) {
+  const ScratchFolder folder;
+  const auto pieces = broken_cube(0.1);
+  write_fragment_ply(folder / "f.ply", pieces[0]);
+  write_fragment_obj(folder / "f.obj", pieces[0]);
+  write_fragments_glb(folder / "f.glb", {pieces[0]});
+  for (const char* name : {"f.ply", "f.obj", "f.glb"}) {
+    const Counts counts = counted(folder / name);
+    EXPECT_EQ(counts.faces, 12u) << name;
+    EXPECT_EQ(counts.places, 8u) << name;
+    EXPECT_NEAR(counts.volume, 0.6, 1e-6) << name;
+  }
+}
+#endif

@@ -1,0 +1,111 @@
+#include "conchoid/io/vtk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <regex>
+
+#include "io/samples.hpp"
+
+using namespace conchoid;
+
+namespace {
+
+/// Tags opened and closed in order, one root: the least a reader of XML asks for.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  const std::regex tag(R"(<(\?|/)?([A-Za-z]+)((?:\s+[A-Za-z_]+="[^"<]*")*)\s*(/|\?)?>)");
+  std::size_t tags = 0;
+  for (std::sregex_iterator it(xml.begin(), xml.end(), tag), end; it != end; ++it, ++tags) {
+    const std::string begin = (*it)[1], name = (*it)[2], close = (*it)[4];
+    if (begin == "?" || close == "/") continue;
+    if (begin == "/") {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ(open.back(), name);
+      open.pop_back();
+    } else {
+      open.push_back(name);
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_EQ(tags, static_cast<std::size_t>(std::count(xml.begin(), xml.end(), '<')));
+}
+
+std::string decoded(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
+    count += 6;
+    if (count >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
+  }
+  return bytes;
+}
+
+/// Numbers of the named DataArray; its byte count comes first.
+template <class T>
+std::vector<T> array(const std::string& xml, const std::string& name) {
+  std::smatch match;
+  if (!std::regex_search(xml, match, std::regex("Name=\"" + name + "\"[^>]*>([^<]*)<"))) return {};
+  const std::string bytes = decoded(match[1]);
+  std::uint64_t size = 0;
+  std::memcpy(&size, bytes.data(), 8);
+  EXPECT_EQ(size + 8, bytes.size());
+  std::vector<T> values(size / sizeof(T));
+  std::memcpy(values.data(), bytes.data() + 8, size);
+  return values;
+}
+
+}  // namespace
+
+TEST(Vtu, MeshAndFieldsComeBackBitForBit) {
+  const ScratchFolder folder;
+  const TriMesh mesh = box({-0.5, -0.1, 1.0 / 3.0}, {0.5, 0.5, 0.7});
+  std::vector<Vec3> displacement;
+  std::vector<double> stress;
+  for (int i = 0; i < 8; ++i)
+    displacement.push_back({0.1 * i, -1e-300, 1e300});
+  for (int t = 0; t < 12; ++t)
+    stress.push_back(t / 7.0);
+  write_vtu(folder / "m.vtu", mesh, {vector_field("displacement", displacement)},
+            {scalar_field("s<1>", stress)});
+
+  const std::string xml = file_content(folder / "m.vtu");
+  expect_well_formed(xml);
+  EXPECT_NE(xml.find("NumberOfPoints=\"8\" NumberOfCells=\"12\""), std::string::npos);
+  EXPECT_EQ(array<double>(xml, "s&lt;1&gt;"), stress);
+  const auto points = array<double>(xml, "Points"), u = array<double>(xml, "displacement");
+  ASSERT_EQ(points.size(), 24u);
+  ASSERT_EQ(u.size(), 24u);
+  for (std::size_t n = 0; n < 8; ++n)
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(points[3 * n + static_cast<std::size_t>(i)], mesh.positions[NodeId(n)][i]);
+      EXPECT_EQ(u[3 * n + static_cast<std::size_t>(i)], displacement[n][i]);
+    }
+  const auto connectivity = array<std::int64_t>(xml, "connectivity"),
+             offsets = array<std::int64_t>(xml, "offsets");
+  ASSERT_EQ(connectivity.size(), 36u);
+  EXPECT_EQ(connectivity[4], mesh.corners[TriId(1)][1].value);
+  EXPECT_EQ(offsets.back(), 36);
+  EXPECT_EQ(array<std::uint8_t>(xml, "types"), std::vector<std::uint8_t>(12, 5));
+}
+
+TEST(Vtu, FieldOfWrongLengthIsOurBug) {
+  const ScratchFolder folder;
+  EXPECT_THROW(write_vtu(folder / "m.vtu", box({0, 0, 0}, {1, 1, 1}), {scalar_field("f", {1.0})}, {}),
+               std::logic_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.vtu"));
+}
+
+TEST(Pvd, ListsFramesWithTimes) {
+  const ScratchFolder folder;
+  write_pvd(folder / "run.pvd", {{0.0, "frames/frame_0000.vtu"}, {1.5e-5, "frames/frame_0001.vtu"}});
+  const std::string xml = file_content(folder / "run.pvd");
+  expect_well_formed(xml);
+  EXPECT_NE(xml.find("timestep=\"1.5e-05\""), std::string::npos);
+  EXPECT_NE(xml.find("file=\"frames/frame_0001.vtu\""), std::string::npos);
+}
