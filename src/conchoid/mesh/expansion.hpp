@@ -1,7 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 namespace conchoid {
@@ -13,7 +14,7 @@ class Expansion {
  public:
   Expansion() = default;
   Expansion(double value) {
-    if (value != 0) terms_.push_back(value);
+    if (value != 0) push(value);
   }
 
   /// a − b, exactly.
@@ -21,37 +22,42 @@ class Expansion {
     const double d = a - b;
     const double b_virtual = a - d;
     const double a_virtual = d + b_virtual;
-    return pair(d, (a - a_virtual) + (b_virtual - b));
+    Expansion e;
+    const double low = (a - a_virtual) + (b_virtual - b);
+    if (low != 0) e.push(low);
+    if (d != 0) e.push(d);
+    return e;
   }
 
-  bool is_zero() const { return terms_.empty(); }
-  int sign() const { return terms_.empty() ? 0 : terms_.back() > 0 ? 1 : -1; }
+  bool is_zero() const { return size_ == 0; }
+  int sign() const { return size_ == 0 ? 0 : data()[size_ - 1] > 0 ? 1 : -1; }
   /// Nearest double to within an ulp or so.
   double estimate() const {
     double sum = 0;
-    for (const double t : terms_)
-      sum += t;
+    for (std::size_t i = 0; i < size_; ++i)
+      sum += data()[i];
     return sum;
   }
 
   Expansion operator-() const {
     Expansion r = *this;
-    for (double& t : r.terms_)
-      t = -t;
+    for (std::size_t i = 0; i < size_; ++i)
+      r.data()[i] = -r.data()[i];
     return r;
   }
 
   Expansion& operator+=(const Expansion& other) {
-    for (const double t : other.terms_)
-      grow(t);
+    for (std::size_t i = 0; i < other.size_; ++i)
+      grow(other.data()[i]);
     return *this;
   }
   friend Expansion operator+(Expansion a, const Expansion& b) { return a += b; }
   friend Expansion operator-(Expansion a, const Expansion& b) { return a += -b; }
   friend Expansion operator*(const Expansion& a, const Expansion& b) {
     Expansion product;
-    for (const double x : a.terms_)
-      for (const double y : b.terms_) {
+    for (std::size_t i = 0; i < a.size_; ++i)
+      for (std::size_t j = 0; j < b.size_; ++j) {
+        const double x = a.data()[i], y = b.data()[j];
         const double p = x * y;
         const double error = std::fma(x, y, -p);
         if (error != 0) product.grow(error);
@@ -61,29 +67,44 @@ class Expansion {
   }
 
  private:
-  static Expansion pair(double high, double low) {
-    Expansion e;
-    if (low != 0) e.terms_.push_back(low);
-    if (high != 0) e.terms_.push_back(high);
-    return e;
+  static constexpr std::size_t inline_size = 8;
+
+  double* data() { return large_.empty() ? small_.data() : large_.data(); }
+  const double* data() const { return large_.empty() ? small_.data() : large_.data(); }
+
+  void push(double value) {
+    if (!large_.empty()) {
+      large_.resize(size_);
+      large_.push_back(value);
+    } else if (size_ == inline_size) {
+      large_.assign(small_.begin(), small_.end());
+      large_.push_back(value);
+    } else {
+      small_[size_] = value;
+    }
+    ++size_;
   }
 
   /// Adds one double; drops zeros.
   void grow(double value) {
     double carry = value;
     std::size_t out = 0;
-    for (const double t : terms_) {
+    double* terms = data();
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double t = terms[i];
       const double sum = carry + t;
       const double t_virtual = sum - carry;
       const double error = (carry - (sum - t_virtual)) + (t - t_virtual);
       carry = sum;
-      if (error != 0) terms_[out++] = error;
+      if (error != 0) terms[out++] = error;
     }
-    terms_.resize(out);
-    if (carry != 0) terms_.push_back(carry);
+    size_ = out;
+    if (carry != 0) push(carry);
   }
 
-  std::vector<double> terms_;
+  std::array<double, inline_size> small_;
+  std::vector<double> large_;  ///< takes over when the inline terms do not suffice; never given back
+  std::size_t size_ = 0;
 };
 
 }  // namespace conchoid

@@ -129,6 +129,39 @@ Rounded rounded_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const V
               std::abs(w.z()) * (std::abs(uv_xy) + std::abs(uv_yx))};
 }
 
+/// The determinant at ε = 0, exactly.
+Expansion exact_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  std::array<std::array<Expansion, 3>, 3> m;
+  for (int axis = 0; axis < 3; ++axis) {
+    m[0][axis] = Expansion::difference(b[axis], a[axis]);
+    m[1][axis] = Expansion::difference(c[axis], a[axis]);
+    m[2][axis] = Expansion::difference(d[axis], a[axis]);
+  }
+  const auto minor = [&](int i, int j) { return m[0][i] * m[1][j] - m[0][j] * m[1][i]; };
+  return m[2][0] * minor(1, 2) + m[2][1] * minor(2, 0) + m[2][2] * minor(0, 1);
+}
+
+/// Coefficient of ε, where only the sheet moves; exact in sign if larger than 32 units of rounding of
+/// `magnitude`.
+Rounded rounded_first_order(const PerturbedPoint& a, const PerturbedPoint& b, const PerturbedPoint& c,
+                            const PerturbedPoint& d) {
+  const std::array<Vec3, 3> rows{b.x - a.x, c.x - a.x, d.x - a.x};
+  const auto along = [](const PerturbedPoint& p) { return p.exponent == 1 ? p.along : Vec3(Vec3::Zero()); };
+  const std::array<const PerturbedPoint*, 3> points{&b, &c, &d};
+  Rounded sum{0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 step = along(*points[k]) - along(a);
+    const Vec3 &v = rows[(k + 1) % 3], &w = rows[(k + 2) % 3];
+    const Vec3 v_abs = v.cwiseAbs(), w_abs = w.cwiseAbs();
+    sum.value += step.dot(cross(v, w));
+    sum.magnitude += (along(*points[k]).cwiseAbs() + along(a).cwiseAbs())
+                         .dot(Vec3(v_abs.y() * w_abs.z() + v_abs.z() * w_abs.y(),
+                                   v_abs.z() * w_abs.x() + v_abs.x() * w_abs.z(),
+                                   v_abs.x() * w_abs.y() + v_abs.y() * w_abs.x()));
+  }
+  return sum;
+}
+
 /// Exact lowest-order coefficient and its exponent.
 struct Leading {
   int exponent;
@@ -136,6 +169,8 @@ struct Leading {
 };
 Leading leading_value(const PerturbedPoint& a, const PerturbedPoint& b, const PerturbedPoint& c,
                       const PerturbedPoint& d) {
+  if (const Expansion at_rest = exact_determinant(a.x, b.x, c.x, d.x); !at_rest.is_zero())
+    return {0, at_rest.estimate()};
   const Polynomial det = leading_determinant(a, b, c, d);
   if (det.is_zero()) return {std::numeric_limits<int>::max(), 0.0};
   return {det.leading_exponent(), det.leading().estimate()};
@@ -183,6 +218,10 @@ int orientation(const PerturbedPoint& a, const PerturbedPoint& b, const Perturbe
   const Rounded det = rounded_determinant(a.x, b.x, c.x, d.x);
   if (det.value > bound * det.magnitude) return 1;
   if (det.value < -bound * det.magnitude) return -1;
+  if (det.magnitude > 0)
+    if (const int sign = exact_determinant(a.x, b.x, c.x, d.x).sign()) return sign;
+  const Rounded first = rounded_first_order(a, b, c, d);
+  if (std::abs(first.value) > 32 * epsilon * first.magnitude) return first.value > 0 ? 1 : -1;
   const Polynomial exact = leading_determinant(a, b, c, d);
   return exact.is_zero() ? 1 : exact.leading().sign();
 }
