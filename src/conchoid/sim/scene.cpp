@@ -1,0 +1,354 @@
+#include "conchoid/sim/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/sim/scene_parser.hpp"
+#include "conchoid/sim/settings.hpp"
+
+namespace conchoid {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path existing_file(const TomlTable& table, std::string_view key, const fs::path& folder) {
+  std::string name;
+  table.require(key, name);
+  const fs::path path = folder / name;
+  if (!fs::is_regular_file(path))
+    table.fail(key, fmt::format("there is no file {}; file names are relative to the scene's folder",
+                                path.string()));
+  return path;
+}
+
+template <class T>
+std::optional<T> optional_value(const TomlTable& table, std::string_view key) {
+  if (!table.has(key)) return std::nullopt;
+  T value{};
+  table.read(key, value);
+  return value;
+}
+
+/// Keys of a table that exclude each other: exactly one must be there. Returns it.
+std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
+                        std::string_view what) {
+  std::vector<std::string_view> given;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](auto key) { return table.has(key); });
+  if (given.empty()) table.fail({}, fmt::format("{} needs one of {}; add it", what, fmt::join(keys, ", ")));
+  if (given.size() > 1)
+    table.fail(given[1], fmt::format("{} has {}; they contradict each other, keep one", what,
+                                     fmt::join(given, " and ")));
+  return given.front();
+}
+
+BodySpec read_body(const TomlTable& file, const fs::path& folder) {
+  const auto table = file.table("body");
+  if (!table) file.fail({}, "there is no [body]; add it, with model = \"cube\" or mesh = \"file.ply\"");
+  table->require_known_keys();
+  BodySpec body;
+  body.where = table->where();
+  if (one_of(*table, {"model", "mesh"}, "[body]") == "model")
+    table->read("model", body.model);
+  else
+    body.mesh = existing_file(*table, "mesh", folder);
+  body.remesh = optional_value<int>(*table, "remesh");
+  table->read("scale", body.scale);
+  for (const char* key : {"remesh", "scale"})
+    if (body.infinite() && table->has(key))
+      table->fail(
+          key,
+          fmt::format("body.{} does not go with model = \"infinite\", which has no surface; remove it", key));
+  return body;
+}
+
+MaterialSpec read_material(const TomlTable& file) {
+  const auto table = file.table("material");
+  if (!table) file.fail({}, "there is no [material]; add it, with youngs_modulus and poisson_ratio");
+  table->require_known_keys();
+  MaterialSpec m;
+  table->require("youngs_modulus", m.youngs_modulus);
+  table->require("poisson_ratio", m.poisson_ratio);
+  table->read("density", m.density);
+  table->read("strength", m.strength);
+  table->read("toughness", m.toughness);
+  table->read("compressive_factor", m.compressive_factor);
+  if (const auto field = table->table("toughness_field")) {
+    std::string kind;
+    field->require("kind", kind);
+    field->require_known_keys();
+  }
+  return m;
+}
+
+ResolutionSpec read_resolution(const TomlTable& file) {
+  ResolutionSpec resolution;
+  const auto table = file.table("resolution");
+  if (!table) return resolution;
+  table->require_known_keys();
+  resolution.crack = optional_value<double>(*table, "crack");
+  resolution.surface = optional_value<double>(*table, "surface");
+  if (resolution.crack && resolution.surface && *resolution.surface > *resolution.crack)
+    table->fail("surface",
+                fmt::format("resolution.surface = {} is coarser than resolution.crack = {}; make it smaller",
+                            *resolution.surface, *resolution.crack));
+  return resolution;
+}
+
+SceneRegion read_region(const TomlTable& table) {
+  table.require_known_keys();
+  SceneRegion region{.rule = {}, .where = table.where()};
+  table.require("name", region.rule.name);
+  std::vector<std::vector<double>> rows;
+  table.require("half_spaces", rows);
+  for (const auto& row : rows) {
+    const HalfSpace half{.normal = {row[0], row[1], row[2]}, .offset = row[3]};
+    if (half.normal.isZero(0))
+      table.fail("half_spaces", "a half space has the normal (0, 0, 0); give its direction");
+    region.rule.half_spaces.push_back(half);
+  }
+  return region;
+}
+
+void read_regions(const TomlTable& file, Scene& scene) {
+  for (const TomlTable& table : file.tables("region")) {
+    SceneRegion region = read_region(table);
+    for (const SceneRegion& other : scene.regions)
+      if (other.rule.name == region.rule.name)
+        table.fail("name", fmt::format("the region \"{}\" is already defined at {}; rename one of them",
+                                       region.rule.name, other.where));
+    scene.regions.push_back(std::move(region));
+  }
+}
+
+BoundaryCondition read_condition(const TomlTable& table) {
+  table.require_known_keys();
+  BoundaryCondition condition{.region = {}, .where = table.where()};
+  table.require("region", condition.region);
+  const std::string_view key = one_of(table, {"traction", "force", "displacement", "fixed"}, "[[boundary]]");
+  if (key == "fixed") {
+    bool fixed = false;
+    table.read("fixed", fixed);
+    if (!fixed)
+      table.fail("fixed", "fixed = false says nothing; remove this [[boundary]] or write fixed = true");
+    condition.kind = ConditionKind::displacement;
+    return condition;
+  }
+  condition.kind = key == "traction" ? ConditionKind::traction
+                   : key == "force"  ? ConditionKind::force
+                                     : ConditionKind::displacement;
+  table.read(key, condition.value);
+  return condition;
+}
+
+void read_boundary(const TomlTable& file, Scene& scene) {
+  for (const TomlTable& table : file.tables("boundary")) {
+    BoundaryCondition condition = read_condition(table);
+    if (scene.body.infinite())
+      table.fail(
+          {},
+          "[[boundary]] does not go with model = \"infinite\", which has no surface; use [remote_stress]");
+    require_region(scene, condition.region, table, "region");
+    for (const BoundaryCondition& other : scene.boundary)
+      if (other.region == condition.region)
+        table.fail("region", fmt::format("the region \"{}\" already has a condition at {}; keep one of them",
+                                         condition.region, other.where));
+    scene.boundary.push_back(std::move(condition));
+  }
+}
+
+Vec3 read_direction(const TomlTable& table, std::string_view key) {
+  Vec3 v = Vec3::Zero();
+  table.require(key, v);
+  if (v.isZero(0)) table.fail(key, fmt::format("crack.{} is (0, 0, 0); give a direction", key));
+  return v;
+}
+
+void read_ellipse(const TomlTable& table, CrackSpec& crack) {
+  std::vector<double> axes;
+  table.require("axes", axes);
+  crack.axes = {axes[0], axes[1]};
+  crack.normal = read_direction(table, "normal");
+  crack.direction = read_direction(table, "direction");
+  if (cross(*crack.direction, crack.normal).norm() <= 1e-6 * crack.direction->norm() * crack.normal.norm())
+    table.fail("direction", "crack.direction is along crack.normal; it must lie in the crack's plane");
+}
+
+void read_rectangle(const TomlTable& table, CrackSpec& crack) {
+  std::vector<std::vector<double>> edges;
+  table.require("edges", edges);
+  if (edges.size() != 2)
+    table.fail("edges", fmt::format("crack.edges holds {} vectors, but must hold 2", edges.size()));
+  crack.edge1 = Vec3(edges[0][0], edges[0][1], edges[0][2]);
+  crack.edge2 = Vec3(edges[1][0], edges[1][1], edges[1][2]);
+  if (cross(crack.edge1, crack.edge2).norm() <= 1e-6 * crack.edge1.norm() * crack.edge2.norm())
+    table.fail("edges", "crack.edges are parallel or zero; a rectangle needs two edges at a right angle");
+  if (std::abs(crack.edge1.dot(crack.edge2)) > 1e-6 * crack.edge1.norm() * crack.edge2.norm())
+    table.fail("edges", "crack.edges are not at a right angle; correct them, or give the crack as a mesh");
+}
+
+/// Keys of [[crack]] that belong to another kind are contradictions.
+void require_keys_of_kind(const TomlTable& table, const std::string& kind) {
+  const std::vector<std::pair<std::string_view, std::set<std::string>>> kinds_of_key = {
+      {"center", {"disc", "ellipse", "rectangle"}},
+      {"normal", {"disc", "ellipse"}},
+      {"radius", {"disc"}},
+      {"axes", {"ellipse"}},
+      {"direction", {"disc", "ellipse"}},
+      {"edges", {"rectangle"}},
+      {"file", {"mesh"}},
+      {"triangles", {"disc", "ellipse", "rectangle"}}};
+  for (const auto& [key, kinds] : kinds_of_key)
+    if (table.has(key) && !kinds.contains(kind))
+      table.fail(key, fmt::format("crack.{} does not go with kind = \"{}\" but with {}; remove it", key, kind,
+                                  fmt::join(kinds, ", ")));
+}
+
+CrackSpec read_crack(const TomlTable& table, const fs::path& folder) {
+  table.require_known_keys();
+  std::string kind;
+  table.require("kind", kind);
+  require_keys_of_kind(table, kind);
+  CrackSpec crack;
+  crack.where = table.where();
+  crack.triangles = optional_value<int>(table, "triangles");
+  if (kind == "mesh") {
+    crack.kind = CrackKind::mesh;
+    crack.file = existing_file(table, "file", folder);
+    return crack;
+  }
+  table.require("center", crack.center);
+  if (kind == "disc") {
+    crack.kind = CrackKind::disc;
+    crack.normal = read_direction(table, "normal");
+    table.require("radius", crack.radius);
+    if (table.has("direction")) crack.direction = read_direction(table, "direction");
+  } else if (kind == "ellipse") {
+    crack.kind = CrackKind::ellipse;
+    read_ellipse(table, crack);
+  } else {
+    crack.kind = CrackKind::rectangle;
+    read_rectangle(table, crack);
+  }
+  return crack;
+}
+
+Mat3 read_remote_stress(const TomlTable& file, const Scene& scene) {
+  Mat3 stress = Mat3::Zero();
+  const auto table = file.table("remote_stress");
+  if (!table) return stress;
+  table->require_known_keys();
+  if (!scene.body.infinite())
+    table->fail(
+        {}, "[remote_stress] goes with model = \"infinite\" only; give the loads of a body as [[boundary]]");
+  std::vector<double> t;
+  table->require("tensor", t);
+  stress << t[0], t[5], t[4], t[5], t[1], t[3], t[4], t[3], t[2];
+  return stress;
+}
+
+RunSpec read_run(const TomlTable& file) {
+  RunSpec run;
+  const auto table = file.table("run");
+  if (!table) return run;
+  table->require_known_keys();
+  table->read("frames", run.frames);
+  table->read("max_cracks", run.max_cracks);
+  table->read("seed", run.seed);
+  table->read("inertia_relief", run.inertia_relief);
+  table->read("contact", run.contact);
+  table->read("quadrature_tolerance", run.quadrature_tolerance);
+  table->read("smallest_fragment", run.smallest_fragment);
+  std::string sif = "two-point", convention = "full-opening", rayleigh = "exact";
+  table->read("sif", sif);
+  table->read("sif_convention", convention);
+  table->read("rayleigh", rayleigh);
+  run.sif = sif == "two-point" ? SifSource::two_point : SifSource::one_point;
+  run.sif_convention = convention == "full-opening" ? OpeningConvention::full : OpeningConvention::half;
+  run.exact_rayleigh_speed = rayleigh == "exact";
+  return run;
+}
+
+}  // namespace
+
+std::string read_text_file(const fs::path& path) {
+  if (fs::is_directory(path)) throw InputError(path.string() + ": is a folder; name the file");
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
+    throw InputError(path.string() + ": cannot be read, or is empty; check the name and its permissions");
+  return text.str();
+}
+
+void require_region(const Scene& scene, const std::string& region, const TomlTable& table,
+                    std::string_view key) {
+  std::vector<std::string> names;
+  for (const SceneRegion& r : scene.regions)
+    names.push_back(r.rule.name);
+  if (!scene.body.model.empty())
+    for (const Region& r : built_in_model(scene.body.model).regions)
+      names.push_back(r.name);
+  if (std::find(names.begin(), names.end(), region) != names.end()) return;
+  if (names.empty())
+    table.fail(key, fmt::format("there is no region \"{}\"; define it with [[region]]", region));
+  table.fail(key, fmt::format("there is no region \"{}\"; choose from {} or define it with [[region]]",
+                              region, fmt::join(names, ", ")));
+}
+
+Scene scene_from(const TomlTable& file, const std::string& name, const fs::path& folder) {
+  Scene scene;
+  scene.file = name;
+  scene.body = read_body(file, folder);
+  scene.material = read_material(file);
+  scene.resolution = read_resolution(file);
+  read_regions(file, scene);
+  read_boundary(file, scene);
+  for (const TomlTable& table : file.tables("crack"))
+    scene.cracks.push_back(read_crack(table, folder));
+  scene.remote_stress = read_remote_stress(file, scene);
+  scene.run = read_run(file);
+  if (scene.body.infinite() && scene.cracks.empty())
+    file.fail(
+        {}, "model = \"infinite\" has no surface and there is no crack: nothing to compute; add a [[crack]]");
+  return scene;
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const fs::path& folder) {
+  const TomlTable file = TomlTable::parse(text, name);
+  file.require_known_keys();
+  Scene scene = scene_from(file, name, folder);
+  scene.text = std::string(text);
+  return scene;
+}
+
+Scene read_scene(const fs::path& path) {
+  return parse_scene(read_text_file(path), path.string(), path.parent_path());
+}
+
+std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
+                                  const std::vector<Region>& model_regions) {
+  std::vector<RegionRule> rules;
+  for (const SceneRegion& region : scene.regions)
+    rules.push_back(region.rule);
+  std::vector<Region> regions = select_regions(surface, rules);
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (regions[i].triangles.empty())
+      throw InputError(
+          fmt::format("{}: the region \"{}\" has no triangles: none has all three vertices in its half "
+                      "spaces, or an earlier region took them; move the half spaces",
+                      scene.regions[i].where, regions[i].name));
+  const IdVector<TriId, int> taken = region_of_triangles(surface, regions);
+  for (Region region : model_regions) {
+    if (find_region(regions, region.name)) continue;
+    std::erase_if(region.triangles, [&](TriId t) { return taken[t] >= 0; });
+    regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "conchoid/core/vec.hpp"
+#include "conchoid/elastic/constants.hpp"
+#include "conchoid/mesh/regions.hpp"
+
+namespace conchoid {
+
+// What a scene file says, checked as far as that is possible without the mesh. Keys, units, ranges and
+// defaults: settings.hpp, docs/scene.md. `where` is the place in the file, "scene.toml:12", for messages
+// about things that only the mesh shows.
+
+struct BodySpec {
+  std::string model;           ///< built-in model; empty: `mesh` is given
+  std::filesystem::path mesh;  ///< absolute, or relative to the working folder; empty: `model` is given
+  std::optional<int> remesh;   ///< wanted number of triangles
+  double scale = 1;  ///< factor on the coordinates of the body (and of the crack its model comes with)
+  std::string where;
+
+  bool infinite() const { return model == "infinite"; }
+};
+
+struct MaterialSpec {
+  double youngs_modulus = 0;      ///< E [Pa]
+  double poisson_ratio = 0;       ///< ν
+  double density = 1200;          ///< [kg/m³]
+  double strength = 7.6e7;        ///< [Pa]
+  double toughness = 1e6;         ///< K_c [Pa√m]
+  double compressive_factor = 3;  ///< ≥ 1
+
+  ElasticConstants elastic() const { return {youngs_modulus, poisson_ratio}; }
+};
+
+struct ResolutionSpec {
+  std::optional<double> crack;    ///< r̄ [m]
+  std::optional<double> surface;  ///< [m]
+};
+
+struct SceneRegion {
+  RegionRule rule;
+  std::string where;
+};
+
+enum class ConditionKind { traction, force, displacement };
+
+struct BoundaryCondition {
+  std::string region;
+  ConditionKind kind = ConditionKind::traction;
+  Vec3 value = Vec3::Zero();  ///< [Pa], [N] or [m]; fixed = true is a displacement of zero
+  std::string where;
+};
+
+enum class CrackKind { disc, ellipse, rectangle, mesh };
+
+struct CrackSpec {
+  CrackKind kind = CrackKind::disc;
+  Vec3 center = Vec3::Zero();                       ///< disc, ellipse, rectangle [m]
+  Vec3 normal = Vec3::UnitZ();                      ///< disc, ellipse; of any length but zero
+  double radius = 0;                                ///< disc [m]
+  Vec2 axes = Vec2::Zero();                         ///< ellipse: semi-axes a, b [m]
+  std::optional<Vec3> direction;                    ///< disc, ellipse: direction of a
+  Vec3 edge1 = Vec3::Zero(), edge2 = Vec3::Zero();  ///< rectangle: full edge vectors [m]
+  std::filesystem::path file;                       ///< mesh
+  std::optional<int> triangles;
+  std::string where;
+};
+
+enum class SifSource { two_point, one_point };
+enum class OpeningConvention { full, half };
+
+struct RunSpec {
+  int frames = 30;
+  int max_cracks = 1;
+  std::uint64_t seed = 1;
+  bool inertia_relief = false;
+  bool contact = true;
+  SifSource sif = SifSource::two_point;
+  OpeningConvention sif_convention = OpeningConvention::full;
+  double quadrature_tolerance = 1e-6;
+  bool exact_rayleigh_speed = true;
+  double smallest_fragment = 1e-4;  ///< share of the body's volume
+};
+
+struct Scene {
+  std::string file;  ///< name for messages
+  std::string text;  ///< the file's content
+  BodySpec body;
+  MaterialSpec material;
+  ResolutionSpec resolution;
+  std::vector<SceneRegion> regions;
+  std::vector<BoundaryCondition> boundary;
+  std::vector<CrackSpec> cracks;
+  /// Stress at infinity [Pa], for the infinite body.
+  Mat3 remote_stress = Mat3::Zero();
+  RunSpec run;
+};
+
+/// Reads a scene file. Throws InputError "file:line: what, remedy".
+Scene read_scene(const std::filesystem::path& path);
+/// @param name  for messages; @param folder  that file names in the scene are relative to
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder);
+
+/// Regions of the body's surface: those of the scene, then those of the built-in model for the triangles left
+/// (a region of the scene replaces one of the model of the same name). `model_regions` is empty for mesh
+/// files. Throws InputError for a region of the scene that gets no triangle.
+std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
+                                  const std::vector<Region>& model_regions);
+
+}  // namespace conchoid

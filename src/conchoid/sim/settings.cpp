@@ -1,0 +1,340 @@
+#include "conchoid/sim/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace conchoid {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+SettingRange above(double low) {
+  return {.low = low, .low_included = false};
+}
+SettingRange at_least(double low) {
+  return {.low = low};
+}
+SettingRange between(double low, double high) {
+  return {.low = low, .high = high};
+}
+
+std::string_view type_name(const Setting& s) {
+  switch (s.type) {
+    case SettingType::number:
+      return "number";
+    case SettingType::integer:
+      return "whole number";
+    case SettingType::boolean:
+      return "true or false";
+    case SettingType::text:
+      return "text";
+    case SettingType::file:
+      return "file";
+    case SettingType::numbers:
+      return "numbers";
+    case SettingType::vectors:
+      return "list of numbers";
+    case SettingType::texts:
+      return "texts";
+  }
+  return "";
+}
+
+/// "3 numbers, Pa, > 0".
+std::string value_text(const Setting& s) {
+  std::string text;
+  if (s.type == SettingType::vectors)
+    text = s.length ? fmt::format("lists of {} numbers", s.length) : "lists of numbers";
+  else if (s.length)
+    text = fmt::format("{} {}", s.length, type_name(s));
+  else if (s.choices.empty())
+    text = type_name(s);
+  if (!s.choices.empty()) text = fmt::format("\"{}\"", fmt::join(s.choices, "\", \""));
+  if (!s.unit.empty()) text += fmt::format(", {}", s.unit);
+  if (const std::string range = s.range.text(); !range.empty()) text += ", " + range;
+  return text;
+}
+
+std::string heading(const SettingTable& table) {
+  return fmt::format(fmt::runtime(table.repeated ? "[[{}]]" : "[{}]"), table.name);
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+bool SettingRange::contains(double x) const {
+  return (low_included ? x >= low : x > low) && (high_included ? x <= high : x < high);
+}
+
+std::string SettingRange::text() const {
+  const bool has_low = low > -kInfinity, has_high = high < kInfinity;
+  if (has_low && has_high && low_included && high_included) return fmt::format("{:g} … {:g}", low, high);
+  std::string text;
+  if (has_low) text = fmt::format("{} {:g}", low_included ? "≥" : ">", low);
+  if (has_low && has_high) text += " and ";
+  if (has_high) text += fmt::format("{} {:g}", high_included ? "≤" : "<", high);
+  return text;
+}
+
+const std::vector<SettingTable>& setting_tables() {
+  static const std::vector<SettingTable> tables = {
+      {"body", false, true, "What breaks: a built-in model or a mesh file, one of the two."},
+      {"material", false, true, "Isotropic, linear elastic, brittle."},
+      {"material.toughness_field", false, true, "How the toughness varies in the body."},
+      {"resolution", false, true, "How fine the crack is."},
+      {"region", true, true,
+       "A named part of the surface: the triangles whose three vertices lie in all its half spaces. A "
+       "triangle "
+       "belongs to the first region that wants it; the regions of a built-in model come after those given "
+       "here."},
+      {"boundary", true, true,
+       "What acts on a region: one of traction, force, displacement, fixed. Where nothing is said the "
+       "surface "
+       "is free."},
+      {"crack", true, true, "A crack that is there from the start."},
+      {"remote_stress", false, true, "Stress at infinity, for model = \"infinite\"."},
+      {"run", false, true, "How the simulation is run."},
+      {"database", false, false,
+       "How the loads of the runs are drawn: a traction on one region, and its opposite on another."},
+  };
+  return tables;
+}
+
+const std::vector<Setting>& settings() {
+  using enum SettingType;
+  static const std::vector<Setting> all = {
+      {"body",
+       "model",
+       text,
+       "",
+       "",
+       "built-in model",
+       {},
+       0,
+       {"cube", "cylinder", "bar", "edge-crack-cube", "infinite"}},
+      {"body", "mesh", file, "", "", "closed surface: .ply, .obj, .stl or .off, coordinates in m"},
+      {"body", "remesh", integer, "triangles", "",
+       "BEM triangles after remeshing; without it the mesh is used as it is", between(20, 200000)},
+      {"body", "scale", number, "", "1.0",
+       "factor on the body's coordinates; everything else in the scene stays as written", above(0)},
+
+      {"material", "youngs_modulus", number, "Pa", "", "Young's modulus E; required", above(0)},
+      {"material",
+       "poisson_ratio",
+       number,
+       "",
+       "",
+       "Poisson's ratio ν; required",
+       {.low = -1, .high = 0.5, .low_included = false, .high_included = false}},
+      {"material", "density", number, "kg/m³", "1200.0", "mass density ρ", above(0)},
+      {"material", "strength", number, "Pa", "7.6e7",
+       "tensile strength of the surface: cracks start above it", above(0)},
+      {"material", "toughness", number, "Pa√m", "1.0e6", "fracture toughness K_c: cracks grow from it on",
+       above(0)},
+      {"material", "compressive_factor", number, "", "3.0",
+       "compressive over tensile strength; decides where the published criterion for compression takes over",
+       at_least(1)},
+      {"material.toughness_field",
+       "kind",
+       text,
+       "",
+       "\"homogeneous\"",
+       "the same toughness everywhere",
+       {},
+       0,
+       {"homogeneous"}},
+
+      {"resolution", "crack", number, "m", "",
+       "r̄, target edge of crack triangles; without it a tenth of the body's size (cube root of the volume) "
+       "or, in "
+       "the infinite body, the mean front edge of the cracks",
+       above(0)},
+      {"resolution", "surface", number, "m", "",
+       "spacing of the markers along the fine front, and with it the detail of the output surface; without "
+       "it crack / 20",
+       above(0)},
+
+      {"region", "name", text, "", "", "required, unique"},
+      {"region",
+       "half_spaces",
+       vectors,
+       "m",
+       "",
+       "[[nx, ny, nz, d], …]: the points with n·x > d; required",
+       {},
+       4},
+
+      {"boundary", "region", text, "", "", "name of the region; required, at most one condition per region"},
+      {"boundary", "traction", numbers, "Pa", "", "force per area", {}, 3},
+      {"boundary", "force", numbers, "N", "", "total force, spread evenly over the region", {}, 3},
+      {"boundary", "displacement", numbers, "m", "", "prescribed displacement", {}, 3},
+      {"boundary", "fixed", boolean, "", "", "true: no displacement"},
+
+      {"crack", "kind", text, "", "", "required", {}, 0, {"disc", "ellipse", "rectangle", "mesh"}},
+      {"crack", "center", numbers, "m", "", "disc, ellipse, rectangle", {}, 3},
+      {"crack", "normal", numbers, "", "", "disc, ellipse: normal, of any length", {}, 3},
+      {"crack", "radius", number, "m", "", "disc", above(0)},
+      {"crack", "axes", numbers, "m", "", "ellipse: semi-axes a, b", above(0), 2},
+      {"crack",
+       "direction",
+       numbers,
+       "",
+       "",
+       "ellipse: direction of a; disc: where the mesh begins (optional)",
+       {},
+       3},
+      {"crack", "edges", vectors, "m", "", "rectangle: its two full edge vectors", {}, 3},
+      {"crack", "file", file, "", "",
+       "mesh: open triangle mesh; edges inside the body are front, others mouth"},
+      {"crack", "triangles", integer, "triangles", "",
+       "wanted number of triangles; without it resolution.crack decides", between(4, 100000)},
+
+      {"remote_stress", "tensor", numbers, "Pa", "", "xx, yy, zz, yz, xz, xy; required", {}, 6},
+
+      {"run", "frames", integer, "frames", "30",
+       "most frames to simulate; a front moves at most crack per frame", between(1, 100000)},
+      {"run", "max_cracks", integer, "cracks", "1", "new cracks that may start; 0: only the initial ones",
+       between(0, 10000)},
+      {"run", "seed", integer, "", "1", "of everything random", between(0, 9007199254740992.0)},
+      {"run", "inertia_relief", boolean, "", "false",
+       "true: loads out of balance accelerate the body as a whole instead of being refused"},
+      {"run", "contact", boolean, "", "true", "crack faces do not pass through each other"},
+      {"run",
+       "sif",
+       text,
+       "",
+       "\"two-point\"",
+       "stress intensity from the opening at two distances, or one (raw)",
+       {},
+       0,
+       {"two-point", "one-point"}},
+      {"run",
+       "sif_convention",
+       text,
+       "",
+       "\"full-opening\"",
+       "half-opening returns twice the stress intensity, as published in 2015",
+       {},
+       0,
+       {"full-opening", "half-opening"}},
+      {"run", "quadrature_tolerance", number, "", "1e-6",
+       "relative error of the integrals over triangle pairs", between(1e-11, 1e-2)},
+      {"run",
+       "rayleigh",
+       text,
+       "",
+       "\"exact\"",
+       "Rayleigh speed: exact, or 0.9 √(μ/ρ)",
+       {},
+       0,
+       {"exact", "approximate"}},
+      {"run",
+       "smallest_fragment",
+       number,
+       "of the body",
+       "1e-4",
+       "pieces below this share of the body's volume are joined to their neighbour",
+       {.low = 0, .high = 1, .high_included = false}},
+
+      {"database", "runs", integer, "runs", "300", "number of runs", between(1, 10000000)},
+      {"database", "seed", integer, "", "1", "of the loads; run i is the same whatever the number of runs",
+       between(0, 9007199254740992.0)},
+      {"database",
+       "regions",
+       texts,
+       "",
+       "",
+       "the pulled region, and the one that gets the opposite traction; required",
+       {},
+       2},
+      {"database",
+       "direction",
+       numbers,
+       "",
+       "[0.0, 0.0, 1.0]",
+       "pole of the hemisphere of directions, slope 0",
+       {},
+       3},
+      {"database", "magnitude", numbers, "Pa", "", "smallest and largest traction; required", above(0), 2},
+      {"database", "slope", numbers, "°", "[0.0, 90.0]",
+       "smallest and largest angle α to the pole, drawn evenly", between(0, 90), 2},
+      {"database", "rotation", numbers, "°", "[0.0, 360.0]",
+       "smallest and largest angle β about the pole, drawn evenly", between(0, 360), 2},
+      {"database", "frames", integer, "frames", "31", "most frames per run", between(2, 100000)},
+      {"database", "exclude_above", number, "°", "85.0",
+       "runs with a larger slope are recorded but not learned from", between(0, 90)},
+      {"database", "many_cracks", integer, "cracks", "3",
+       "from so many new cracks on, all of them tiny, a run is not learned from", between(1, 10000)},
+      {"database", "tiny_growth", number, "crack edges", "2.0",
+       "a crack is tiny if its front has travelled less", between(0, 1e6)},
+  };
+  return all;
+}
+
+const Setting* find_setting(std::string_view table, std::string_view key) {
+  const auto& all = settings();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Setting& s) { return s.table == table && s.key == key; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string settings_text(bool database) {
+  std::string text =
+      database ? "Keys of a database specification (the keys of a scene but [run] frames, and [database]):\n"
+               : "Keys of a scene:\n";
+  for (const SettingTable& table : setting_tables()) {
+    if (!table.in_scene && !database) continue;
+    text += fmt::format("\n{}\n", heading(table));
+    for (const Setting& s : settings()) {
+      if (s.table != table.name) continue;
+      text += fmt::format("  {} ({})", s.key, value_text(s));
+      if (!s.standard.empty()) text += fmt::format(" = {}", s.standard);
+      text += fmt::format("\n      {}\n", s.help);
+    }
+  }
+  return text;
+}
+
+std::string settings_markdown() {
+  std::string text;
+  for (const SettingTable& table : setting_tables()) {
+    text += fmt::format("\n### `{}`\n\n{}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
+                        heading(table), table.help);
+    for (const Setting& s : settings())
+      if (s.table == table.name)
+        text += fmt::format("| `{}` | {} | {} | {} |\n", s.key, value_text(s),
+                            s.standard.empty() ? "" : fmt::format("`{}`", s.standard), s.help);
+  }
+  return text;
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (std::string_view candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+}  // namespace conchoid
