@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/corefine_merge.hpp"
@@ -29,6 +30,8 @@ struct Key {
 struct Segment {
   TriId surface, sheet;
   Key from, to;
+  std::vector<NodeId> path;  ///< from, crossings with other segments (only if the sheet or the surface passes
+                             ///< through itself), to
 };
 
 class Corefinement {
@@ -43,6 +46,8 @@ class Corefinement {
   CutComplex run() {
     find_segments();
     make_nodes();
+    join_crossings(Key::surface_edge);
+    join_crossings(Key::sheet_edge);
     cut_surface();
     cut_sheet();
     return keep_inside();
@@ -101,7 +106,7 @@ class Corefinement {
           "surface triangle " + std::to_string(t.value) + " and crack triangle " + std::to_string(s.value) +
           " do not intersect in a segment: is one of them without area or are their nodes not finite?");
     const int from = ends[0].inside_on_right ? 1 : 0;
-    segments_.push_back({t, s, ends[from].key, ends[1 - from].key});
+    segments_.push_back({t, s, ends[from].key, ends[1 - from].key, {}});
   }
 
   Points edge_triangle(const Key& key) const {
@@ -127,6 +132,8 @@ class Corefinement {
       crossings_.push_back(crossing(p, q, edge_triangle(key)));
       positions_.push_back(crossings_.back().point(p, q));
     }
+    for (Segment& s : segments_)
+      s.path = {node(s.from), node(s.to)};
     order_along_edges();
   }
 
@@ -171,22 +178,80 @@ class Corefinement {
     return nodes;
   }
 
+  /// What cuts one triangle. Edges of the surface are cut by the sheet (kind surface_edge) and the other way
+  /// round.
+  TriangleCut triangle_cut(Key::Kind kind, TriId t) const {
+    const bool of_surface = kind == Key::surface_edge;
+    const std::size_t node_offset = of_surface ? 0 : surface_.node_count();
+    Corners ascending = (of_surface ? surface_ : sheet_).corners[t];
+    std::sort(ascending.begin(), ascending.end());
+    TriangleCut cut;
+    for (int k = 0; k < 3; ++k) {
+      cut.corners[k] = NodeId(ascending[k].index() + node_offset);
+      cut.on_edge[k] = nodes_on_edge(kind, ascending[k], ascending[(k + 1) % 3]);
+    }
+    for (const std::size_t i : (of_surface ? on_surface_ : on_sheet_)[t]) {
+      const auto& path = segments_[i].path;
+      for (std::size_t k = 0; k + 1 < path.size(); ++k)
+        cut.segments.emplace_back(path[k], path[k + 1]);
+      for (std::size_t k = 1; k + 1 < path.size(); ++k)
+        cut.through.push_back({path[k - 1], path[k], path[k + 1]});
+    }
+    return cut;
+  }
+
+  /// A sheet that passes through itself draws mouth curves that cross; they get a common node there.
+  void join_crossings(Key::Kind kind) {
+    auto& lists = kind == Key::surface_edge ? on_surface_ : on_sheet_;
+    lists.resize((kind == Key::surface_edge ? surface_ : sheet_).triangle_count());
+    for (std::size_t i = 0; i < segments_.size(); ++i)
+      lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
+    for (std::size_t t = 0; t < lists.size(); ++t) {
+      const std::vector<std::size_t>& own = lists[TriId(t)];
+      if (own.size() < 2) continue;
+      for (const CrossingSegments& c : crossing_segments(positions_, triangle_cut(kind, TriId(t)))) {
+        const auto with = [&](const Edge& e) -> Segment& {
+          return segments_[*std::find_if(own.begin(), own.end(),
+                                         [&](std::size_t i) { return has_step(segments_[i], e); })];
+        };
+        join(with(c.first), with(c.second));
+      }
+    }
+  }
+
+  static bool has_step(const Segment& s, const Edge& e) {
+    const auto a = std::find(s.path.begin(), s.path.end(), e.a),
+               b = std::find(s.path.begin(), s.path.end(), e.b);
+    return a != s.path.end() && b != s.path.end();
+  }
+
+  /// Node where two segments come closest.
+  void join(Segment& s, Segment& t) {
+    const auto& [p, q] = std::pair(positions_[s.path.front()], positions_[s.path.back()]);
+    const auto& [v, w] = std::pair(positions_[t.path.front()], positions_[t.path.back()]);
+    const Vec3 a = q - p, b = w - v, n = cross(a, b);
+    const double share =
+        n.squaredNorm() > 0 ? std::clamp(cross(v - p, b).dot(n) / n.squaredNorm(), 0.0, 1.0) : 0.5;
+    const NodeId node = positions_.add(Vec3(p + share * a));
+    for (Segment* x : {&s, &t}) {
+      const Vec3 start = positions_[x->path.front()], along = positions_[x->path.back()] - start;
+      const auto place = std::find_if(x->path.begin() + 1, x->path.end() - 1, [&](NodeId other) {
+        return (positions_[other] - start).dot(along) > (positions_[node] - start).dot(along);
+      });
+      x->path.insert(place, node);
+    }
+  }
+
   /// Pieces of one cut triangle, oriented like it; in canonical order and rotation, the same for a reflected
   /// mesh.
-  std::vector<Corners> cut_triangle(const Corners& corners, Key::Kind edge_kind, std::size_t node_offset,
-                                    std::vector<Edge> segments) const {
-    TriangleCut cut;
+  std::vector<Corners> cut_triangle(Key::Kind kind, TriId t) const {
+    const Corners& corners = (kind == Key::surface_edge ? surface_ : sheet_).corners[t];
     Corners ascending = corners;
     std::sort(ascending.begin(), ascending.end());
     const bool even =
         corners[1] ==
         ascending[(std::find(ascending.begin(), ascending.end(), corners[0]) - ascending.begin() + 1) % 3];
-    for (int k = 0; k < 3; ++k) {
-      cut.corners[k] = NodeId(ascending[k].index() + node_offset);
-      cut.on_edge[k] = nodes_on_edge(edge_kind, ascending[k], ascending[(k + 1) % 3]);
-    }
-    cut.segments = std::move(segments);
-    std::vector<Corners> pieces = retriangulate(positions_, cut);
+    std::vector<Corners> pieces = retriangulate(positions_, triangle_cut(kind, t));
     for (Corners& p : pieces) {
       std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
       if (!even) std::swap(p[1], p[2]);
@@ -199,24 +264,15 @@ class Corefinement {
     return pieces;
   }
 
-  /// Segments of each triangle, in order of the segments.
-  IdVector<TriId, std::vector<Edge>> segments_by(TriId Segment::*side, std::size_t triangle_count) const {
-    IdVector<TriId, std::vector<Edge>> lists(triangle_count);
-    for (const Segment& s : segments_)
-      lists[s.*side].emplace_back(node(s.from), node(s.to));
-    return lists;
-  }
-
   void cut_surface() {
-    auto lists = segments_by(&Segment::surface, surface_.triangle_count());
     for (std::size_t i = 0; i < surface_.triangle_count(); ++i) {
       const TriId t(i);
-      if (lists[t].empty()) {
+      if (on_surface_[t].empty()) {
         result_.surface.push_back(surface_.corners[t]);
         result_.surface_parent.push_back(t);
         continue;
       }
-      for (const Corners& p : cut_triangle(surface_.corners[t], Key::surface_edge, 0, std::move(lists[t]))) {
+      for (const Corners& p : cut_triangle(Key::surface_edge, t)) {
         result_.surface.push_back(p);
         result_.surface_parent.push_back(t);
       }
@@ -224,19 +280,17 @@ class Corefinement {
   }
 
   void cut_sheet() {
-    const std::size_t offset = surface_.node_count();
-    auto lists = segments_by(&Segment::sheet, sheet_.triangle_count());
     for (std::size_t i = 0; i < sheet_.triangle_count(); ++i) {
       const TriId s(i);
-      if (lists[s].empty()) {
+      if (on_sheet_[s].empty()) {
         Corners c = sheet_.corners[s];
         for (NodeId& id : c)
-          id = NodeId(id.index() + offset);
+          id = NodeId(id.index() + surface_.node_count());
         sheet_pieces_.push_back(c);
         sheet_parents_.push_back(s);
         continue;
       }
-      for (const Corners& p : cut_triangle(sheet_.corners[s], Key::sheet_edge, offset, std::move(lists[s]))) {
+      for (const Corners& p : cut_triangle(Key::sheet_edge, s)) {
         sheet_pieces_.push_back(p);
         sheet_parents_.push_back(s);
       }
@@ -262,10 +316,9 @@ class Corefinement {
       return x.edge != y.edge ? x.edge < y.edge : x.piece < y.piece;
     });
     std::vector<std::pair<Edge, bool>> mouth;  // edge, whether inside is left of a → b
-    for (const Segment& s : segments_) {
-      const NodeId from = node(s.from), to = node(s.to);
-      mouth.emplace_back(Edge(from, to), from < to);
-    }
+    for (const Segment& s : segments_)
+      for (std::size_t k = 0; k + 1 < s.path.size(); ++k)
+        mouth.emplace_back(Edge(s.path[k], s.path[k + 1]), s.path[k] < s.path[k + 1]);
     std::sort(mouth.begin(), mouth.end());
     std::vector<std::size_t> parent(sheet_pieces_.size());
     std::iota(parent.begin(), parent.end(), 0);
@@ -330,8 +383,8 @@ class Corefinement {
     std::vector<bool> used(positions_.size(), false);
     for (std::size_t i = 0; i < ns; ++i)
       used[i] = true;
-    for (std::size_t k = 0; k < keys_.size(); ++k)
-      used[node(k).index()] = true;
+    for (std::size_t i = ns + sheet_.node_count(); i < positions_.size(); ++i)
+      used[i] = true;
     for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
       if (inside[p])
         for (const NodeId id : sheet_pieces_[p])
@@ -356,7 +409,8 @@ class Corefinement {
       result_.sheet_parent.push_back(sheet_parents_[p]);
     }
     for (const Segment& s : segments_)
-      result_.mouth.emplace_back(final_id[node(s.from).index()], final_id[node(s.to).index()]);
+      for (std::size_t k = 0; k + 1 < s.path.size(); ++k)
+        result_.mouth.emplace_back(final_id[s.path[k].index()], final_id[s.path[k + 1].index()]);
     std::sort(result_.mouth.begin(), result_.mouth.end());
     set_supports(final_id);
     return std::move(result_);
@@ -367,6 +421,8 @@ class Corefinement {
     supports_.resize(result_.positions.size());
     for (std::size_t i = 0; i < surface_.node_count(); ++i)
       supports_[NodeId(i)].kind = vertex;
+    for (std::size_t i = node(keys_.size()).index(); i < final_id.size(); ++i)
+      supports_[final_id[i]].kind = vertex;  // crossings stay where they are
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       SurfaceSupport& support = supports_[final_id[node(k).index()]];
       support.kind = keys_[k].kind == Key::surface_edge ? edge : face;
@@ -384,7 +440,8 @@ class Corefinement {
   std::vector<Key> keys_;            ///< mouth nodes, sorted
   std::vector<Crossing> crossings_;  ///< per key
   std::vector<std::size_t> along_edge_;
-  IdVector<NodeId, Vec3> positions_;  ///< in work numbering
+  IdVector<TriId, std::vector<std::size_t>> on_surface_, on_sheet_;  ///< segments per triangle
+  IdVector<NodeId, Vec3> positions_;                                 ///< in work numbering
   std::vector<Corners> sheet_pieces_;
   std::vector<TriId> sheet_parents_;
   CutComplex result_;

@@ -57,6 +57,17 @@ class LocalTriangle {
       neighbours_[a].push_back(b);
       neighbours_[b].push_back(a);
     }
+    for (const auto& t : cut.through)
+      through_[index(t[1])].push_back({index(t[0]), index(t[2])});
+  }
+
+  std::vector<CrossingSegments> crossings() {
+    std::vector<CrossingSegments> result;
+    const std::vector<Polygon> curves = chords();
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      for (std::size_t j = i + 1; j < curves.size(); ++j)
+        if (alternate(curves[i], curves[j])) result.push_back(meeting_segments(curves[i], curves[j]));
+    return result;
   }
 
   std::vector<std::array<NodeId, 3>> pieces() {
@@ -106,64 +117,142 @@ class LocalTriangle {
     }
   }
 
+  std::vector<Index> places_on_rim() const {
+    std::vector<Index> place(ids_.size(), -1);
+    for (std::size_t i = 0; i < rim_.size(); ++i)
+      place[rim_[i]] = static_cast<Index>(i);
+    return place;
+  }
+
+  /// Next node of the curve that comes from `previous`; straight on where curves cross; `previous` again
+  /// where the curve ends.
+  Index along_curve(Index previous, Index node) const {
+    const auto& next = neighbours_[node];
+    if (next.size() == 1) return next[0];
+    if (next.size() == 2) return next[0] != previous ? next[0] : next[1];
+    if (const auto found = through_.find(node); found != through_.end())
+      for (const Link& l : found->second) {
+        if (l.first == previous) return l.second;
+        if (l.second == previous) return l.first;
+      }
+    throw ComputationError("mouth curves branch inside a triangle");
+  }
+
+  /// Curves from rim to rim.
+  std::vector<Polygon> chords() const {
+    const std::vector<Index> place = places_on_rim();
+    std::vector<Polygon> curves;
+    for (const Index start : rim_) {
+      if (neighbours_[start].empty()) continue;
+      Polygon curve{start, neighbours_[start][0]};
+      while (place[curve.back()] < 0 && neighbours_[curve.back()].size() > 1)
+        curve.push_back(along_curve(curve[curve.size() - 2], curve.back()));
+      if (place[curve.back()] > place[start]) curves.push_back(std::move(curve));
+    }
+    return curves;
+  }
+
+  bool alternate(const Polygon& c, const Polygon& d) const {
+    const std::vector<Index> place = places_on_rim();
+    const Index c0 = place[c.front()], c1 = place[c.back()], d0 = place[d.front()], d1 = place[d.back()];
+    return (c0 < d0 && d0 < c1) != (c0 < d1 && d1 < c1);
+  }
+
+  CrossingSegments meeting_segments(const Polygon& c, const Polygon& d) const {
+    double best = infinity;
+    std::size_t at_c = 0, at_d = 0;
+    for (std::size_t i = 0; i + 1 < c.size(); ++i)
+      for (std::size_t j = 0; j + 1 < d.size(); ++j) {
+        const double distance = (at_[c[i]] + at_[c[i + 1]] - at_[d[j]] - at_[d[j + 1]]).squaredNorm();
+        const double rank = crosses(c[i], c[i + 1], d[j], d[j + 1]) ? -1 / (1 + distance) : distance;
+        if (rank < best) {
+          best = rank;
+          at_c = i;
+          at_d = j;
+        }
+      }
+    return {Edge(ids_[c[at_c]], ids_[c[at_c + 1]]), Edge(ids_[d[at_d]], ids_[d[at_d + 1]])};
+  }
+
+  /// Directions at a node where curves cross, counter-clockwise: in the order in which the curves reach the
+  /// rim.
+  std::vector<Index> counterclockwise(Index node, const std::vector<Index>& place) const {
+    std::vector<std::pair<Index, Index>> order;
+    for (const Index first : neighbours_[node]) {
+      Index previous = node, at = first;
+      for (std::size_t guard = 0; place[at] < 0; ++guard) {
+        const Index next = along_curve(previous, at);
+        previous = at;
+        at = next;
+        if (guard > ids_.size()) throw ComputationError("mouth curves in a triangle do not close");
+      }
+      order.emplace_back(place[at], first);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<Index> directions;
+    for (const auto& [where, first] : order)
+      directions.push_back(first);
+    return directions;
+  }
+
+  /// Where a face on the left goes on after the step previous → node, off the rim.
+  Index around_face(Index previous, Index node, const std::vector<Index>& place) const {
+    if (neighbours_[node].size() <= 2) return along_curve(previous, node);
+    const std::vector<Index> directions = counterclockwise(node, place);
+    const auto from = std::find(directions.begin(), directions.end(), previous);
+    return from == directions.begin() ? directions.back() : *(from - 1);
+  }
+
   /// Walks the faces that touch the rim: at a node on an edge the one segment that starts there lies between
   /// the two parts of the edge.
   std::vector<Polygon> faces_at_rim() {
     const Index n = static_cast<Index>(rim_.size());
-    std::vector<Index> place(ids_.size(), -1);
-    for (Index i = 0; i < n; ++i)
-      place[rim_[i]] = i;
-    for (Index i = 0; i < n; ++i)
-      if (neighbours_[rim_[i]].size() > 1)
+    const std::vector<Index> place = places_on_rim();
+    for (const Index i : rim_)
+      if (neighbours_[i].size() > 1)
         throw ComputationError("a cut triangle has two mouth curves through one edge node");
-    std::vector<bool> walked(n, false);
     std::vector<Polygon> faces;
-    for (Index start = 0; start < n; ++start) {
-      if (walked[start]) continue;
+    std::set<Link> walked;  // directed steps
+    const auto walk = [&](Index from, Index to) {
       Polygon face;
-      Index at = start;  // place on the rim; next step goes along the rim
-      do {
-        walked[at] = true;
-        face.push_back(rim_[at]);
-        Index node = rim_[(at + 1) % n];
-        if (neighbours_[node].empty()) {
-          at = (at + 1) % n;
-          continue;
+      Index previous = from, node = to;
+      while (walked.insert({previous, node}).second) {
+        face.push_back(previous);
+        Index next;
+        if (place[node] < 0) {
+          next = around_face(previous, node, place);
+        } else {
+          const Index ahead = rim_[(place[node] + 1) % n], behind = rim_[(place[node] + n - 1) % n];
+          next = previous == behind && !neighbours_[node].empty() && !is_segment(previous, node)
+                     ? neighbours_[node][0]
+                     : ahead;
         }
-        // leave the rim along the curve, back to the rim (perhaps to the same node, when the curve ends
-        // inside)
-        Index previous = -1;
-        do {
-          face.push_back(node);
-          const auto& next = neighbours_[node];
-          if (next.size() > 2) throw ComputationError("mouth curves branch inside a triangle");
-          const Index to = next.size() == 1 || next[0] != previous ? next[0] : next[1];
-          previous = node;
-          node = to;
-        } while (place[node] < 0);
-        at = place[node];
-        if (face.size() > 4 * ids_.size()) throw ComputationError("mouth curves in a triangle do not close");
-      } while (at != start);
+        previous = node;
+        node = next;
+      }
       faces.push_back(std::move(face));
+    };
+    std::vector<bool> seen(ids_.size(), false);
+    std::size_t nodes = 0, steps = 0;
+    for (Index i = 0; i < n; ++i) {
+      if (!walked.contains({rim_[i], rim_[(i + 1) % n]})) walk(rim_[i], rim_[(i + 1) % n]);
+      for (const Index member : mark(rim_[i], seen)) {
+        ++nodes;
+        steps += neighbours_[member].size();
+      }
     }
-    if (faces.size() != 1 + chords()) throw ComputationError("mouth curves cross inside a triangle");
+    // faces in the middle, bounded by crossing curves alone
+    for (Index i = 3; i < static_cast<Index>(ids_.size()); ++i)
+      if (seen[i])
+        for (const Index j : neighbours_[i])
+          if (!walked.contains({i, j})) walk(i, j);
+    if (faces.size() + nodes != rim_.size() + steps / 2 + 1)
+      throw ComputationError("mouth curves cross inside a triangle");
     return faces;
   }
 
-  /// Number of curves from edge to edge; each divides a face in two, unless they cross.
-  std::size_t chords() const {
-    std::size_t ends = 0;
-    for (const Index start : rim_) {
-      if (neighbours_[start].empty()) continue;
-      Index previous = start, node = neighbours_[start][0];
-      while (node >= 3 && edges_of_[node] == 0 && neighbours_[node].size() == 2) {
-        const Index to = neighbours_[node][0] != previous ? neighbours_[node][0] : neighbours_[node][1];
-        previous = node;
-        node = to;
-      }
-      ends += edges_of_[node] != 0;
-    }
-    return ends / 2;
+  bool is_segment(Index a, Index b) const {
+    return std::find(neighbours_[a].begin(), neighbours_[a].end(), b) != neighbours_[a].end();
   }
 
   /// Curves that touch no edge: closed loops and open paths. Larger loops first, so that nested ones find
@@ -453,11 +542,17 @@ class LocalTriangle {
   std::vector<Vec2> at_;
   std::vector<int> edges_of_;                   ///< bit k: the node lies on edge k
   std::vector<std::vector<Index>> neighbours_;  ///< along segments
+  std::map<Index, std::vector<Link>> through_;  ///< at crossings: nodes before and after, per curve
   Polygon rim_;
   std::set<Link> used_;  ///< edges that must not come a second time as a diagonal
 };
 
 }  // namespace
+
+std::vector<CrossingSegments> crossing_segments(const IdVector<NodeId, Vec3>& positions,
+                                                const TriangleCut& cut) {
+  return LocalTriangle(positions, cut).crossings();
+}
 
 std::vector<std::array<NodeId, 3>> retriangulate(const IdVector<NodeId, Vec3>& positions,
                                                  const TriangleCut& cut) {

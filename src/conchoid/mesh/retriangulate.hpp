@@ -12,8 +12,22 @@ struct TriangleCut {
   std::array<NodeId, 3> corners;  ///< ascending ids
   std::array<std::vector<NodeId>, 3>
       on_edge;                 ///< nodes on edge (corner k, corner k+1), in that direction, corners left out
-  std::vector<Edge> segments;  ///< each once; they meet only in nodes
+  std::vector<Edge> segments;  ///< each once
+  std::vector<std::array<NodeId, 3>>
+      through;  ///< nodes where curves cross: (node before, crossing node, node after), per curve
 };
+
+/// Two segments that have to meet in a node, because the curves they belong to join nodes of the rim that
+/// alternate.
+struct CrossingSegments {
+  Edge first, second;
+};
+
+/// Curves of an embedded sheet never cross; those of one that passes through itself do. Empty in the first
+/// case. Decided by the order of the nodes on the rim alone; which segments of the two curves are to meet, by
+/// coordinates.
+std::vector<CrossingSegments> crossing_segments(const IdVector<NodeId, Vec3>& positions,
+                                                const TriangleCut& cut);
 
 /// Pieces of the triangle, corners in the sense of `cut.corners`: its triangulation with exactly the given
 /// nodes, containing all segments.

@@ -174,15 +174,25 @@ class Gluing {
         volume[shell[f]] += six_volume(f, origin) / 6;
         if (f < shells_.surface_faces) body += six_volume(f, origin) / 6;
       }
-    std::vector<bool> cavity(first.size());
-    for (std::size_t s = 0; s < first.size(); ++s)
-      cavity[s] = volume[s] < -1e-11 * body;
-    for (std::size_t s = 0; s < first.size(); ++s)
-      if (std::abs(volume[s]) <= 1e-11 * body) cavity[s] = true;
-    // a piece without volume is a piece when a side of the sheet faces another shell across it
+    // Shells of negative volume are cavities; those without volume are cracks in the inside, unless their
+    // other sides belong to another shell: then they are pieces, though empty.
+    const double tiny = 1e-11 * body;
+    std::vector<bool> faces_another(first.size(), false), cavity(first.size());
     for (std::size_t f = shells_.surface_faces; f < n; ++f)
-      if (shell[f] >= 0 && shell[f] != shell[shells_.opposite(f)] && volume[shell[f]] >= -1e-11 * body)
-        cavity[shell[f]] = false;
+      if (shell[f] >= 0 && shell[f] != shell[shells_.opposite(f)]) faces_another[shell[f]] = true;
+    for (std::size_t s = 0; s < first.size(); ++s)
+      cavity[s] = volume[s] < -tiny || (volume[s] <= tiny && !faces_another[s]);
+    std::vector<std::int32_t> around(first.size(), -1);
+    for (std::size_t s = 0; s < first.size(); ++s)
+      if (cavity[s]) {
+        around[s] = surrounding(first[s], shell, volume, cavity);
+        if (around[s] < 0 && !faces_another[s])
+          throw ComputationError(
+              "a cavity or an inner crack lies in no piece of the body: is the surface oriented outward?");
+      }
+    for (std::size_t s = 0; s < first.size(); ++s)
+      if (cavity[s] && around[s] < 0)
+        cavity[s] = false;  // between layers of a sheet that passes through itself
 
     std::vector<std::int32_t> solid(first.size(), -1);
     for (std::size_t s = 0; s < first.size(); ++s)
@@ -192,11 +202,7 @@ class Gluing {
       }
     for (std::size_t s = 0; s < first.size(); ++s)
       if (cavity[s]) {
-        const std::int32_t around = surrounding(first[s], shell, volume, cavity);
-        if (around < 0)
-          throw ComputationError(
-              "a cavity or an inner crack lies in no piece of the body: is the surface oriented outward?");
-        solid[s] = solid[around];
+        solid[s] = solid[around[s]];
         shells_.volume[solid[s]] += volume[s];
       }
     shells_.solid.assign(n, -1);
@@ -204,7 +210,8 @@ class Gluing {
       if (shell[f] >= 0) shells_.solid[f] = solid[shell[f]];
   }
 
-  /// The smallest shell with material inside that winds around the face.
+  /// The smallest shell with material inside that winds around the face (¾ of a full turn: a face in the
+  /// shell sees half of one).
   std::int32_t surrounding(std::size_t face, const std::vector<std::int32_t>& shell,
                            const std::vector<double>& volume, const std::vector<bool>& cavity) const {
     std::vector<double> turns(volume.size(), 0.0);
@@ -220,7 +227,7 @@ class Gluing {
     }
     std::int32_t best = -1;
     for (std::size_t s = 0; s < volume.size(); ++s)
-      if (!cavity[s] && turns[s] > 2 * std::numbers::pi && (best < 0 || volume[s] < volume[best]))
+      if (!cavity[s] && turns[s] > 3 * std::numbers::pi && (best < 0 || volume[s] < volume[best]))
         best = static_cast<std::int32_t>(s);
     return best;
   }
