@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/decimate.hpp"
 #include "conchoid/mesh/editable_mesh.hpp"
 #include "conchoid/mesh/feature_lines.hpp"
+#include "conchoid/mesh/size_field.hpp"
 
 namespace conchoid {
 namespace {
@@ -25,26 +27,8 @@ TriMesh lines_as_mesh(const TriMesh& mesh, const FeatureLines& features) {
   return lines;
 }
 
-/// Edges with their lengths, sorted by a comparison of these; ties by ids.
-template <class Compare>
-std::vector<Edge> edges_by_length(const EditableMesh& mesh, const Compare& wanted, bool longest_first) {
-  struct Entry {
-    double length;
-    Edge edge;
-  };
-  std::vector<Entry> entries;
-  for (const Edge& e : mesh.edges())
-    if (const double length = mesh.length(e); wanted(length)) entries.push_back({length, e});
-  std::stable_sort(entries.begin(), entries.end(), [&](const Entry& x, const Entry& y) {
-    return longest_first ? x.length > y.length : x.length < y.length;
-  });
-  std::vector<Edge> edges;
-  for (const Entry& entry : entries)
-    edges.push_back(entry.edge);
-  return edges;
-}
-
-/// Isotropic remeshing of one surface towards edges of one length.
+/// A surface during its remeshing, by the steps of isotropic remeshing. Lengths are relative to what the size
+/// field asks for.
 class Remesher {
  public:
   Remesher(const TriMesh& original, double edge)
@@ -54,29 +38,31 @@ class Remesher {
         surface_(original),
         lines_(lines_as_mesh(original, features_)) {}
 
-  EditableMesh& mesh() { return mesh_; }
-  FeatureLines& features() { return features_; }
+  /// Decimates to about `samples` triangles, takes the size field from these and chooses the edge length for
+  /// `target` of them.
+  void prepare(std::size_t samples, std::size_t target) {
+    decimate(mesh_, features_, samples);
+    size_.emplace(mesh_.compact(), edge_);
+    edge_ *= std::sqrt(size_->triangle_count(edge_) / static_cast<double>(target));
+  }
+
+  const EditableMesh& mesh() const { return mesh_; }
   double edge() const { return edge_; }
   void set_edge(double edge) { edge_ = edge; }
 
   void split_long_edges() {
     constexpr int most_passes = 24;  // halves a single edge as often
-    const double longest = edge_ * 4 / 3;
     bool changed = true;
     for (int pass = 0; pass < most_passes && changed; ++pass) {
       changed = false;
-      for (const Edge& e : edges_by_length(
-               mesh_, [&](double l) { return l > longest; }, true))
+      for (const Edge& e : edges_by_length(4.0 / 3.0, 1e300, true))
         changed = split(e) || changed;
     }
   }
 
   void collapse_short_edges() {
-    const double shortest = edge_ * 4 / 5;
-    for (const Edge& e : edges_by_length(
-             mesh_, [&](double l) { return l < shortest; }, false))
-      if (mesh_.alive(e.a) && mesh_.alive(e.b) && mesh_.has_edge(e.a, e.b) && mesh_.length(e) < shortest)
-        collapse(e);
+    for (const Edge& e : edges_by_length(0, 4.0 / 5.0, false))
+      if (exists(e) && relative_length(e) < 4.0 / 5.0) collapse(e);
   }
 
   /// Flips edges where that makes the smallest angle of the two triangles larger, until none does.
@@ -103,29 +89,81 @@ class Remesher {
   void open_small_angles(double angle) {
     for (int pass = 0; pass < 12; ++pass) {
       bool changed = false;
-      for (std::size_t t = 0; t < mesh_.triangle_slots(); ++t)
+      const std::size_t slots =
+          mesh_.triangle_slots();  // the steps add new ones: those are for the next pass
+      for (std::size_t t = 0; t < slots; ++t)
         if (mesh_.alive(TriId(t)) && smallest_angle(mesh_.triangle(TriId(t))) < angle)
           changed = improve(TriId(t), pass >= 4) || changed;
       if (!changed) return;
     }
   }
 
+  /// With nodes on the surface, triangles lie inside where it is convex: moves nodes along their normals
+  /// until the triangles around each lie on both sides of the surface alike, so that the volume is kept.
+  void balance_volume() {
+    for (int pass = 0; pass < 4; ++pass)
+      for (std::size_t i = 0; i < mesh_.node_slots(); ++i) {
+        const NodeId n(i);
+        if (!mesh_.alive(n) || features_.kind(n) != FeatureLines::Kind::free) continue;
+        Vec3 normal = Vec3::Zero();
+        double gap = 0, areas = 0;
+        for (TriId t : mesh_.star(n)) {
+          const Triangle x = mesh_.triangle(t);
+          const Vec3 area = 0.5 * area_vector2(x[0], x[1], x[2]);
+          normal += area;
+          areas += area.norm();
+          for (std::size_t k = 0; k < 3; ++k) {  // edge middles with equal weights: exact for quadratic gaps
+            const Vec3 middle = 0.5 * (x[k] + x[(k + 1) % 3]);
+            gap += area.dot(surface_.closest(middle).point - middle) / 3;
+          }
+        }
+        mesh_.move(n, mesh_.position(n) + normal.normalized() * (gap / areas));
+      }
+  }
+
   /// Brings the number of triangles into [low, high] by the shortest or longest edges.
   void meet_count(std::size_t low, std::size_t high) {
-    auto any_length = [](double) { return true; };
     for (int pass = 0; pass < 20 && mesh_.triangle_count() > high; ++pass)
-      for (const Edge& e : edges_by_length(mesh_, any_length, false)) {
+      for (const Edge& e : edges_by_length(0, 1e300, false)) {
         if (mesh_.triangle_count() <= high) break;
-        if (mesh_.alive(e.a) && mesh_.alive(e.b) && mesh_.has_edge(e.a, e.b)) collapse(e);
+        if (exists(e)) collapse(e);
       }
     for (int pass = 0; pass < 20 && mesh_.triangle_count() < low; ++pass)
-      for (const Edge& e : edges_by_length(mesh_, any_length, true)) {
+      for (const Edge& e : edges_by_length(0, 1e300, true)) {
         if (mesh_.triangle_count() >= low) break;
         split(e);
       }
   }
 
  private:
+  /// The edge length wanted at x.
+  double wanted(const Vec3& x) const { return edge_ * (*size_)(x); }
+  double relative_length(const Edge& e) const {
+    return mesh_.length(e) / wanted(0.5 * (mesh_.position(e.a) + mesh_.position(e.b)));
+  }
+  bool exists(const Edge& e) const {
+    return mesh_.alive(e.a) && mesh_.alive(e.b) && mesh_.has_edge(e.a, e.b);
+  }
+
+  /// Edges with relative lengths above `low` and below `high`, sorted by these; ties by ids.
+  std::vector<Edge> edges_by_length(double low, double high, bool longest_first) const {
+    struct Entry {
+      double length;
+      Edge edge;
+    };
+    std::vector<Entry> entries;
+    for (const Edge& e : mesh_.edges())
+      if (const double length = relative_length(e); length > low && length < high)
+        entries.push_back({length, e});
+    std::stable_sort(entries.begin(), entries.end(), [&](const Entry& x, const Entry& y) {
+      return longest_first ? x.length > y.length : x.length < y.length;
+    });
+    std::vector<Edge> edges;
+    for (const Entry& entry : entries)
+      edges.push_back(entry.edge);
+    return edges;
+  }
+
   Vec3 projected(NodeId n, const Vec3& x) const {
     switch (features_.kind(n)) {
       case FeatureLines::Kind::free:
@@ -169,7 +207,7 @@ class Remesher {
 
   /// Whether a collapse would make an edge so long that it would be split again.
   bool stretches(NodeId removed, NodeId kept, const Vec3& at) const {
-    const double longest = edge_ * 1.4;
+    const double longest = 1.4 * wanted(at);
     for (NodeId end : {removed, kept})
       for (NodeId n : mesh_.neighbours(end))
         if (n != removed && n != kept && (mesh_.position(n) - at).norm() > longest) return true;
@@ -189,7 +227,7 @@ class Remesher {
     // The new edge must not leave the surface much farther than the old one does.
     const double old_distance = std::sqrt(surface_.closest(0.5 * (a + b)).squared_distance);
     const double new_distance = std::sqrt(surface_.closest(0.5 * (l + r)).squared_distance);
-    return new_distance <= old_distance + 0.1 * edge_;
+    return new_distance <= old_distance + 0.1 * wanted(a);
   }
 
   /// From a node toward the area-weighted centre of its star, in the tangent plane; on a crease toward the
@@ -265,6 +303,7 @@ class Remesher {
   EditableMesh mesh_;
   FeatureLines features_;
   ClosestPointTree surface_, lines_;
+  std::optional<SizeField> size_;
 };
 
 /// Rounds of the four steps; the edge length follows the count. Edges of the equilateral triangle of the
@@ -314,11 +353,12 @@ TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* repo
   const double edge = std::sqrt(4 / std::numbers::sqrt3 * surface_area(original) / target_triangles);
 
   Remesher remesher(original, edge);
-  if (original.triangle_count() > 3 * target) decimate(remesher.mesh(), remesher.features(), 2 * target);
+  remesher.prepare(4 * target, target);
   remesh_isotropically(remesher, target);
   remesher.open_small_angles(25 * degree);
   remesher.meet_count(target - target / 12, target + target / 12);
   remesher.open_small_angles(20 * degree);
+  remesher.balance_volume();
 
   TriMesh result = remesher.mesh().compact();
   if (std::abs(static_cast<double>(result.triangle_count()) / target_triangles - 1) > 0.1)
