@@ -13,11 +13,14 @@ namespace conchoid {
 namespace {
 
 constexpr double kReachAlong = 1.6;  ///< samples' feet lie within this many edge lengths of the front node …
-constexpr double kReachBehind = 2.6;  ///< … and the samples within this many of the front
+constexpr double kReachBehind = 3.6;  ///< … and the samples within this many of the front
 constexpr double kFullWeightFrom =
     0.4;                      ///< rows nearer than this (a thin last strip) count less: (r / 0.4 h)²
 constexpr int kMostRows = 6;  ///< rows of nodes searched: thin strips take several to reach 0.4 h
 /// Keeps A', A" and B at 0 where the samples cannot tell them; A" first, as K varies slowly along a front.
+/// B of a Galerkin solution is damped more: on a crack of three rows it would follow the deviation, not the
+/// field.
+constexpr double kGalerkinRidge = 1e-2;
 constexpr double kRidge[3] = {1e-4, 1e-2, 1e-4};
 
 double mean_edge_length(const TriMesh& crack, const Front& front, std::size_t i) {
@@ -75,11 +78,25 @@ double along_front(const TriMesh& crack, const Front& front, std::size_t i, cons
   return ahead;
 }
 
-double weight(const OpeningSample& sample, double reach_along) {
+double weight(const OpeningSample& sample, bool galerkin_openings) {
   const double thin = std::min(1.0, sample.r / kFullWeightFrom);
-  const double s = sample.s / reach_along;
-  const double near = (1 - s * s) / (1 + sample.r * sample.r);
-  return thin * thin * near * near;
+  const double s = sample.s / kReachAlong;
+  const double near = (1 - s * s) / (1 + 0.25 * sample.r * sample.r);
+  return thin * thin * near * near * (galerkin_openings && sample.row == 1 ? kFirstRowWeight : 1.0);
+}
+
+/// Takes the Galerkin solution's deviation out of the rates.
+void remove_element_bias(std::vector<OpeningSample>& samples) {
+  double first_row = 0, count = 0;
+  for (const OpeningSample& sample : samples)
+    if (sample.row == 1) {
+      first_row += sample.r;
+      ++count;
+    }
+  if (count == 0) return;
+  const double shift = kFrontShift * first_row / count;
+  for (OpeningSample& sample : samples)
+    sample.rate /= sample.row == 1 ? kFirstRowExcess : std::sqrt(std::max(0.5, 1 - shift / sample.r));
 }
 
 }  // namespace
@@ -138,7 +155,7 @@ std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const
 
 std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
                                           std::size_t i, const std::vector<int>& rows,
-                                          const IdVector<NodeId, Vec3>& opening) {
+                                          const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
   const double h = mean_edge_length(crack, front, i);
   std::vector<OpeningSample> samples;
   if (!(h > 0)) return samples;
@@ -149,34 +166,35 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
     sample.s = along_front(crack, front, i, foot) / h;
     if (!(sample.r > 1e-3) || sample.r > kReachBehind || std::abs(sample.s) >= kReachAlong) continue;
     const FrontFrame frame = frame_at(front, foot);
-    const int row = rows[node.index()];
-    const double bias = row <= 2 ? kRingBias[row - 1] : 1.0;
-    const Vec3 du = opening[node] / (bias * std::sqrt(foot.distance));
+    sample.row = rows[node.index()];
+    const Vec3 du = opening[node] / std::sqrt(foot.distance);
     sample.rate = {du.dot(frame.e1), du.dot(frame.e2), du.dot(frame.e3)};
     samples.push_back(sample);
   }
+  if (galerkin_openings) remove_element_bias(samples);
   return samples;
 }
 
-bool fit_rate(const std::vector<OpeningSample>& samples, Vec3& rate) {
+bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings, Vec3& rate) {
   if (samples.empty()) return false;
   using Normal = Eigen::Matrix4d;
   Normal normal = Normal::Zero();
   Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
   double total = 0;
   for (const OpeningSample& sample : samples) {
-    const double w = weight(sample, kReachAlong);
+    const double w = weight(sample, galerkin_openings);
     total += w;
   }
   if (!(total > 0)) return false;
   for (const OpeningSample& sample : samples) {
     const Eigen::Vector4d row(1, sample.s, sample.s * sample.s, sample.r);
-    const double w = weight(sample, kReachAlong) / total;
+    const double w = weight(sample, galerkin_openings) / total;
     normal += w * row * row.transpose();
     right += w * row * sample.rate.transpose();
   }
   for (int k = 1; k < 4; ++k)
     normal(k, k) += kRidge[k - 1];
+  if (galerkin_openings) normal(3, 3) += kGalerkinRidge;
   rate = normal.ldlt().solve(right).row(0).transpose();
   return rate.allFinite();
 }

@@ -90,7 +90,7 @@ std::vector<Vec3> one_point_rates(const TriMesh& crack, const Front& front,
 }
 
 std::vector<Vec3> fitted_rates(const TriMesh& crack, const Front& front,
-                               const IdVector<NodeId, Vec3>& opening) {
+                               const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
   const std::size_t n = front.nodes.size();
   const NodeLinks links(crack);
   const std::vector<int> rows = rows_behind(crack, links, front, front_marks(crack, front, opening));
@@ -99,7 +99,8 @@ std::vector<Vec3> fitted_rates(const TriMesh& crack, const Front& front,
   for (std::size_t i = 0; i < n; ++i) {
     const bool end = !front.closed && n > 2 && (i == 0 || i + 1 == n);
     if (end) continue;
-    known[i] = fit_rate(gather_samples(crack, links, front, i, rows, opening), rates[i]);
+    known[i] = fit_rate(gather_samples(crack, links, front, i, rows, opening, galerkin_openings),
+                        galerkin_openings, rates[i]);
   }
   return fill_from_nearest(rates, known, front.closed);
 }
@@ -117,8 +118,9 @@ Vec3 opening_from_intensity(const Vec3& K, double r, const ElasticConstants& m, 
 std::vector<Vec3> stress_intensities(const TriMesh& crack, const Front& front,
                                      const IdVector<NodeId, Vec3>& opening, const ElasticConstants& m,
                                      const SifSettings& settings) {
-  std::vector<Vec3> K = settings.method == SifMethod::one_point ? one_point_rates(crack, front, opening)
-                                                                : fitted_rates(crack, front, opening);
+  std::vector<Vec3> K = settings.method == SifMethod::one_point
+                            ? one_point_rates(crack, front, opening)
+                            : fitted_rates(crack, front, opening, settings.galerkin_openings);
   const Vec3 factors = intensity_factors(m, settings.convention);
   for (Vec3& k : K)
     k = k.cwiseProduct(factors);

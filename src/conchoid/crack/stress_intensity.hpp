@@ -30,22 +30,20 @@ Vec3 opening_from_intensity(const Vec3& K, double r, const ElasticConstants& m,
 struct SifSettings {
   SifMethod method = SifMethod::two_point;
   SifConvention convention = SifConvention::full_opening;
+  /// The openings are those of a piecewise linear Galerkin solution, whose known deviation near the front is
+  /// taken out by two_point (kFrontShift and kFirstRowExcess in intensity_fit.hpp). false: they are exact
+  /// values of the opening.
+  bool galerkin_openings = true;
 };
-
-/// A continuous, piecewise linear boundary element solution is a little off in the first rows of nodes behind
-/// the front. Its openings there are divided by these: [0] nodes that share a triangle with the front, [1]
-/// nodes one row further back. 1 = taken as they are. Used by two_point only; every other place leaves
-/// openings untouched.
-inline constexpr double kRingBias[2] = {1.0, 1.0};
 
 /// K at every node of a front from the openings of the crack mesh (one Δu per node [m], world axes; zero on
 /// the front). one_point: each triangle that carries a front edge gives one K, from its interior node (the
 /// correlation node) at distance r from the front; a front node takes the mean of its two edges. two_point:
-/// around each front node, Δu(r, s) = √r (A + A' s + A" s²) + B r^{3/2} is fitted to the nodes behind it by
-/// weighted least squares (s along the front; rows nearer than 0.4 local edge lengths, as a slow front leaves
-/// behind, count little); K from A. A front node with nothing behind it, and the ends of an open front, take
-/// the value of the nearest front node that has one; a front with nothing behind it at all (a crack one row
-/// of triangles wide) has K = 0.
+/// around each front node, Δu(r, s) = √r (A + A' s + A" s²) + B r^{3/2} is fitted to the rows of nodes behind
+/// it by weighted least squares (s along the front; rows nearer than 0.4 local edge lengths, as a slow front
+/// leaves behind, count little); K from A. docs/theory.md (S7) A front node with nothing behind it, and the
+/// ends of an open front, take the value of the nearest front node that has one; a front with nothing behind
+/// it at all (a crack one row of triangles wide) has K = 0.
 std::vector<Vec3> stress_intensities(const TriMesh& crack, const Front& front,
                                      const IdVector<NodeId, Vec3>& opening, const ElasticConstants& m,
                                      const SifSettings& settings);
