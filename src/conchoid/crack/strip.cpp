@@ -353,8 +353,11 @@ std::vector<NodeId> assign_ids(const TriMesh& mesh, const StripCurve& curve, con
     Key key{node.kind == StripNode::Kind::inserted, curve.nodes[node.first], curve.nodes[node.last], node.s,
             draft.vertex[k]};
     if (node.kind == StripNode::Kind::merged)
-      for (std::size_t i = node.first; i != node.last; i = next_index(i, n, curve.closed))
+      for (std::size_t i = node.first;; i = next_index(i, n, curve.closed)) {
         key.low = std::min(key.low, curve.nodes[i]);
+        key.high = std::max(key.high, curve.nodes[i]);
+        if (i == node.last) break;
+      }
     if (key.high < key.low) {
       std::swap(key.low, key.high);
       key.s = 1 - key.s;

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "conchoid/crack/front_steps.hpp"
+#include "conchoid/crack/marker_curve.hpp"
+
+namespace conchoid {
+
+struct FineFrontSettings {
+  double resolution = 0;  ///< r̄ [m]
+  double spacing = 0;     ///< h [m] of the markers; at most r̄/4 is used
+  double turn_within =
+      0.5;  ///< share of a frame over which a marker turns from its last direction to the new one
+  int most_sub_steps =
+      32;  ///< per frame, else ⌈r̄/h⌉: more would only divide a path that bends no more than once per frame
+  bool smooth_angles = true;  ///< see FrontSteps::smooth_angles
+};
+
+/// Toughness K_c [Pa·√m] at a point.
+using ToughnessField = std::function<double(const Vec3&)>;
+
+/// The visible crack surface: along every coarse front a polyline of markers, about h apart (kept within 0.5
+/// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker. A frame of r̄/c_R
+/// is made in sub-steps; a marker moves by
+///     advance_length(K_eff, K_c(x), r̄) / sub-steps,
+/// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
+/// frame, in a direction that turns from its direction in the frame before to the interpolated θ. A marker
+/// that has not moved before kinks at once. A marker leaves a row of triangles behind whenever it is half of
+/// h from its last one, so slow fronts leave no slivers; its position may be that much ahead of the sheet
+/// (see finish()). The body's surface is not seen here.
+///
+/// One frame:  motions = fine.advance(sheet, steps, toughness);
+///             result = advance(sheet, motions, r̄, {smoothing 0, between fine.between});  fine.adopt(sheet,
+///             result);
+/// or advance_fronts(), which does just that.
+class FineFront {
+ public:
+  /// The initial fine sheet: the sheet's triangles, each divided uniformly to edges of about h.
+  FineFront(const CrackSheet& sheet, const FineFrontSettings& settings);
+
+  /// Takes in the cracks appended to the sheet since it was last seen; advance() does so by itself.
+  void append_parts(const CrackSheet& sheet);
+
+  /// Moves the markers by one frame and sweeps the fine sheet. Coarse nodes without a step stay, and so do
+  /// markers between two of them. @return the displacements of the coarse nodes
+  std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
+                                   const ToughnessField& toughness);
+
+  /// Position of the marker nearest to the fraction s of the way along the markers from coarse node a to b;
+  /// none if one of them rides on no marker.
+  std::optional<Vec3> between(NodeId a, NodeId b, double s) const;
+
+  /// Follows the coarse fronts through an advance of the sheet: hands markers over to the new coarse nodes;
+  /// where a coarse front has closed, the fine one is closed by a fan.
+  void adopt(const CrackSheet& sheet, const AdvanceResult& result);
+
+  /// Leaves a last row of triangles at markers that are ahead of the sheet. At the end of a run.
+  void finish();
+
+  const TriMesh& surface() const { return surface_; }
+  /// Frame of the sheet in which each fine triangle appeared.
+  const IdVector<TriId, int>& triangle_birth() const { return birth_; }
+  /// As CrackSheet::fronts; empty where the fine front has closed before the coarse one.
+  const std::vector<MarkerCurve>& curves() const { return curves_; }
+
+ private:
+  bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness, int step,
+                    int count) const;
+  void leave_row(MarkerCurve& curve, double least);
+  void close(MarkerCurve& curve);
+  void append_motions(const CrackSheet& sheet, MarkerCurve& curve, const FrontSteps& steps,
+                      std::vector<FrontMotion>& motions) const;
+  void follow(MarkerCurve& curve, const std::vector<FrontSuccession>& succession) const;
+
+  FineFrontSettings settings_;
+  TriMesh surface_;
+  IdVector<TriId, int> birth_;
+  std::vector<MarkerCurve> curves_;
+  std::size_t known_triangles_ = 0;  ///< of the sheet
+  int frame_ = 0;
+};
+
+/// One frame of the coarse and the fine front together.
+AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
+                             const ToughnessField& toughness, double target_edge);
+
+}  // namespace conchoid

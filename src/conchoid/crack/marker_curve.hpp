@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// A point of the fine front.
+struct Marker {
+  NodeId node;  ///< last node it left in the fine sheet
+  Vec3 position = Vec3::Zero();
+  Vec3 direction = Vec3::Zero();         ///< of its last sub-step; zero before it has moved
+  Vec3 direction_before = Vec3::Zero();  ///< of the last sub-step of the frame before
+  NodeId coarse;                         ///< the coarse front node that rides on it; else invalid
+  double parameter = 0;  ///< k + s: fraction s of the way from coarse node k of its front to the next
+};
+
+/// The markers along one coarse front, in the order of its nodes.
+struct MarkerCurve {
+  std::vector<Marker> markers;
+  bool closed = false;
+
+  std::size_t size() const { return markers.size(); }
+  std::size_t next(std::size_t i) const;
+  std::size_t previous(std::size_t i) const;
+  /// Distance from marker i to the next one.
+  double spacing(std::size_t i) const;
+};
+
+/// Gives each marker its place between the coarse nodes that ride before and after it, by arc length; a ring
+/// is turned to start at its first coarse node. @param coarse  nodes of the coarse front
+void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse);
+
+/// Point of the curve at a parameter (of `coarse_nodes` coarse nodes), for coarse nodes that ride on no
+/// marker.
+Vec3 point_at(const MarkerCurve& curve, double parameter, std::size_t coarse_nodes);
+
+/// Index of the marker nearest to the fraction s of the arc from marker a forward to marker b; neither of
+/// them unless `ends`.
+std::size_t marker_between(const MarkerCurve& curve, std::size_t a, std::size_t b, double s, bool ends);
+
+/// Coarse nodes ride on to markers nearer to the middle of their neighbours, a quarter of the way, where
+/// their two coarse edges differ a lot: keeps coarse edges even without leaving the fine front.
+/// @param may_slide  per coarse node of the front (`coarse`)
+void slide_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse, const std::vector<bool>& may_slide);
+
+}  // namespace conchoid
