@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include "conchoid/learn/features.hpp"
 #include "conchoid/learn/sample.hpp"
@@ -53,6 +55,11 @@ inline SampleSet synthetic_runs(int runs, double growth, double kink) {
   for (int run = 0; run < runs; ++run)
     set.append(synthetic_run(run, 8, 10, growth, kink));
   return set;
+}
+
+/// Without the care of AtomicFile: for files that are wrong on purpose.
+inline void write_plainly(const std::filesystem::path& file, std::string_view bytes) {
+  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 /// A folder of its own for one test, removed afterwards.

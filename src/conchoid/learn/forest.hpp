@@ -7,20 +7,10 @@
 #include <vector>
 
 #include "conchoid/learn/features.hpp"
+#include "conchoid/learn/material_record.hpp"
 #include "conchoid/learn/tree_ensemble.hpp"
 
 namespace conchoid {
-
-/// The material of the runs that samples come from.
-struct MaterialRecord {
-  double youngs_modulus = 0;      ///< E [Pa]
-  double poisson_ratio = 0;       ///< ν
-  double density = 0;             ///< [kg/m³]
-  double strength = 0;            ///< tensile strength [Pa]
-  double toughness = 0;           ///< K_c [Pa√m]
-  double compressive_factor = 0;  ///< ratio of compressive to tensile strength
-  bool operator==(const MaterialRecord&) const = default;
-};
 
 struct ForestSettings {
   int trees = 50;  ///< t, ≥ 1

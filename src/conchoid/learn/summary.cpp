@@ -1,0 +1,169 @@
+#include "conchoid/learn/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "conchoid/learn/bytes.hpp"
+
+namespace conchoid {
+namespace {
+
+using nlohmann::json;
+
+std::string text(const json& j) {
+  return j.dump(2, ' ', false, json::error_handler_t::replace);
+}
+
+json per_mode(const Vec3& v) {
+  return {{"I", v[0]}, {"II", v[1]}, {"III", v[2]}};
+}
+
+json to_json(const MaterialRecord& m) {
+  return {{"youngs_modulus", m.youngs_modulus},
+          {"poisson_ratio", m.poisson_ratio},
+          {"density", m.density},
+          {"strength", m.strength},
+          {"toughness", m.toughness},
+          {"compressive_factor", m.compressive_factor}};
+}
+
+json to_json(const Accuracy& a) {
+  return {{"rmse", per_mode(a.rmse)}, {"r2", per_mode(a.r2)}};
+}
+
+json to_json(const Statistics& s) {
+  return {{"median", s.median},
+          {"mean", s.mean},
+          {"coefficient_of_variation", s.coefficient_of_variation},
+          {"minimum", s.minimum},
+          {"maximum", s.maximum}};
+}
+
+}  // namespace
+
+DatabaseInfo database_info(const Database& database) {
+  DatabaseInfo info;
+  info.header = database.header;
+  info.runs = database.runs.size();
+  info.samples = database.samples.size();
+  info.complete = database.complete();
+  info.hash = database.hash();
+  for (const SampleField& field : SampleSet::fields())
+    info.features.emplace_back(field.name);
+  for (const FeatureSet set : all_feature_sets())
+    info.feature_sets.emplace_back(name(set));
+  for (const RunRecord& run : database.runs) {
+    ++info.stops[run.stop];
+    if (run.excluded) {
+      ++info.excluded_runs;
+      ++info.exclusions[run.reason.substr(0, run.reason.find(':'))];
+    } else {
+      info.training_samples += run.samples;
+    }
+    info.mean_frames += run.frames / static_cast<double>(info.runs);
+    info.wall_seconds += run.wall_seconds;
+  }
+  return info;
+}
+
+Statistics statistics(std::vector<double> values) {
+  Statistics s;
+  if (values.empty()) return s;
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  s.minimum = values.front();
+  s.maximum = values.back();
+  s.median = (values[(n - 1) / 2] + values[n / 2]) / 2;
+  for (const double v : values)
+    s.mean += v / static_cast<double>(n);
+  double square = 0;
+  for (const double v : values)
+    square += (v - s.mean) * (v - s.mean);
+  const double deviation = n > 1 ? std::sqrt(square / static_cast<double>(n - 1)) : 0.0;
+  s.coefficient_of_variation =
+      s.mean != 0 ? deviation / s.mean : (deviation > 0 ? std::numeric_limits<double>::infinity() : 0.0);
+  return s;
+}
+
+DatabaseStatistics database_statistics(const Database& database) {
+  const SampleSet samples = database.training_samples();
+  DatabaseStatistics result;
+  result.samples = samples.size();
+  for (std::size_t mode = 0; mode < 3; ++mode)
+    result.K[mode] = statistics(samples.field(mode));
+  return result;
+}
+
+std::string json_text(const DatabaseInfo& info) {
+  return text({{"runs", info.runs},
+               {"samples", info.samples},
+               {"features", info.features},
+               {"feature_sets", info.feature_sets},
+               {"material", to_json(info.header.material)},
+               {"models", info.header.models},
+               {"complete", info.complete},
+               {"planned_runs", info.header.planned_runs},
+               {"shard", {info.header.shard, info.header.shards}},
+               {"seed", info.header.seed},
+               {"resolution", info.header.resolution},
+               {"excluded_runs", info.excluded_runs},
+               {"training_samples", info.training_samples},
+               {"stops", info.stops},
+               {"exclusions", info.exclusions},
+               {"mean_frames", info.mean_frames},
+               {"wall_seconds", info.wall_seconds},
+               {"spec", info.header.spec},
+               {"hash", hex(info.hash)}});
+}
+
+std::string json_text(const DatabaseStatistics& s) {
+  return text({{"samples", s.samples},
+               {"K_I", to_json(s.K[0])},
+               {"K_II", to_json(s.K[1])},
+               {"K_III", to_json(s.K[2])}});
+}
+
+std::string json_text(const Evaluation& e) {
+  json j = to_json(e.forest);
+  j["samples"] = e.samples;
+  j["runs"] = e.runs;
+  j["baseline_steady"] = to_json(e.baseline_steady);
+  j["in_range"] = e.in_range;
+  j["spread"] = per_mode(e.spread);
+  j["seen_in_training"] = e.seen_in_training;
+  return text(j);
+}
+
+std::string json_text(const RegressionForest& forest) {
+  const ForestSettings& s = forest.settings();
+  const Provenance& p = forest.provenance();
+  json features = json::array();
+  const std::vector<std::string> names = feature_names(s.features);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    features.push_back({{"name", names[i]},
+                        {"minimum", forest.ranges()[i].minimum},
+                        {"maximum", forest.ranges()[i].maximum},
+                        {"quantile_levels", FeatureRange::levels},
+                        {"quantiles", forest.ranges()[i].quantiles}});
+  json nodes = json::array();
+  for (int mode = 0; mode < 3; ++mode)
+    nodes.push_back(forest.ensemble(mode).node_count());
+  return text({{"feature_set", name(s.features)},
+               {"features", features},
+               {"trees", s.trees},
+               {"depth", s.depth},
+               {"seed", s.seed},
+               {"bins", s.bins},
+               {"nodes", nodes},
+               {"models", p.models},
+               {"material", to_json(p.material)},
+               {"resolution", p.resolution},
+               {"runs", p.runs},
+               {"samples", p.samples},
+               {"samples_hash", hex(p.samples_hash)},
+               {"spec", p.spec}});
+}
+
+}  // namespace conchoid
