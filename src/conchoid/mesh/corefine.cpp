@@ -197,7 +197,41 @@ class Corefinement {
       for (std::size_t k = 1; k + 1 < path.size(); ++k)
         cut.through.push_back({path[k - 1], path[k], path[k + 1]});
     }
+    cut.turn = [=, this](NodeId before, NodeId at, NodeId after) { return turn(kind, t, before, at, after); };
     return cut;
+  }
+
+  /// Sense of the turn that a curve in triangle t takes where it passes from one triangle of the other mesh
+  /// to the next, across their common edge: the dihedral angle there decides.
+  int turn(Key::Kind kind, TriId t, NodeId before, NodeId at, NodeId after) const {
+    const bool of_surface = kind == Key::surface_edge;
+    const std::size_t first_key = node(std::size_t{0}).index();
+    if (at.index() < first_key || at.index() >= first_key + keys_.size()) return 0;
+    const Edge edge = keys_[at.index() - first_key].edge;
+    const auto other_triangle = [&](NodeId end) {
+      for (const std::size_t i : (of_surface ? on_surface_ : on_sheet_)[t])
+        if (has_step(segments_[i], Edge(end, at)))
+          return of_surface ? segments_[i].sheet : segments_[i].surface;
+      return TriId();
+    };
+    const TriId from = other_triangle(before), to = other_triangle(after);
+    if (!from.valid() || !to.valid() || from == to) return 0;
+    const TriMesh& mesh = of_surface ? sheet_ : surface_;
+    const auto& points = of_surface ? sheet_points_ : surface_points_;
+    const Corners &c = mesh.corners[from], &d = mesh.corners[to];
+    const auto opposite =
+        std::find_if(d.begin(), d.end(), [&](NodeId n) { return n != edge.a && n != edge.b; });
+    const auto apex = std::find_if(c.begin(), c.end(), [&](NodeId n) { return n != edge.a && n != edge.b; });
+    const NodeId end =
+        c[static_cast<std::size_t>(apex - c.begin() + 2) % 3];  // of the edge as `from` runs through it
+    const Points F = triangle(mesh, points, from);
+    Points X = of_surface ? surface_triangle(t) : sheet_triangle(t);
+    std::sort(X.begin(), X.end(), [](const auto* x, const auto* y) { return x->id < y->id; });
+    // seen from X's normal, the side of `from` its normal points away from lies left of the curve if `end`
+    // lies above X
+    const bool back_is_left = orientation(*X[0], *X[1], *X[2], points[end.index()]) > 0;
+    const bool goes_back = orientation(*F[0], *F[1], *F[2], points[opposite->index()]) < 0;
+    return back_is_left == goes_back ? 1 : -1;
   }
 
   /// A sheet that passes through itself draws mouth curves that cross; they get a common node there.

@@ -289,11 +289,8 @@ class LocalTriangle {
         previous = node;
         node = to;
       } while (node != start);
-      island.area = signed_area(island.walk);
-      if (island.closed && island.area < 0) {
-        std::reverse(island.walk.begin(), island.walk.end());
-        island.area = -island.area;
-      }
+      island.area = std::abs(signed_area(island.walk));
+      if (island.closed && turns_right(island.walk)) std::reverse(island.walk.begin(), island.walk.end());
     }
     std::stable_sort(islands.begin(), islands.end(),
                      [](const Island& x, const Island& y) { return x.area > y.area; });
@@ -325,6 +322,21 @@ class LocalTriangle {
     for (std::size_t i = 1; i + 1 < p.size(); ++i)
       sum += area2(at_[p[0]], at_[p[i]], at_[p[i + 1]]);
     return sum;
+  }
+
+  /// Whether a closed curve goes round clockwise: by the sum of its turns, which is ±2π; those near ±π get
+  /// their sign exactly.
+  bool turns_right(const Polygon& p) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Index a = p[i], b = p[(i + 1) % p.size()], c = p[(i + 2) % p.size()];
+      const Vec2 u = at_[b] - at_[a], v = at_[c] - at_[b];
+      double angle = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
+      if (std::abs(angle) > 3 && cut_.turn)
+        if (const int sense = cut_.turn(ids_[a], ids_[b], ids_[c])) angle = sense * std::abs(angle);
+      sum += angle;
+    }
+    return sum < 0;
   }
 
   bool contains(const Polygon& p, const Vec2& x) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "conchoid/mesh/tri_mesh.hpp"
@@ -15,6 +16,11 @@ struct TriangleCut {
   std::vector<Edge> segments;  ///< each once
   std::vector<std::array<NodeId, 3>>
       through;  ///< nodes where curves cross: (node before, crossing node, node after), per curve
+
+  /// Exact sense of the turn before → node → after of a curve at an inner node: +1 left, −1 right, seen so
+  /// that the corners go round counter-clockwise; 0: not known. Asked where the curve seems to double back on
+  /// itself: only this tells a slit from a needle.
+  std::function<int(NodeId before, NodeId node, NodeId after)> turn;
 };
 
 /// Two segments that have to meet in a node, because the curves they belong to join nodes of the rim that
