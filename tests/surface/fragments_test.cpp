@@ -249,6 +249,57 @@ TEST(Fragments, MovedAndRotatedBodiesBreakAlike) {
   }
 }
 
+TEST(Fragments, SheetsThatPassThroughThemselves) {
+  // a curl: the curve (x, z)(u) crosses itself, drawn out along y and tilted
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int seed = 0; seed < 60; ++seed) {
+    const TriMesh body = seed % 2 ? icosphere(2) : cube(2 + seed % 5);
+    const Mat3 r = random_rotation(random);
+    const double size = 0.25 + 0.2 * std::abs(uniform(random)), lean = 0.3 * uniform(random),
+                 x0 = 0.5 * uniform(random);
+    const int n = 8 + seed % 13;
+    const TriMesh curl = sheet(-2.2, 2.2, -1.4, 1.4, 2 * n, n, [&](double u, double v) {
+      return Vec3(r * Vec3(x0 + u * u * u * 0.4 - 0.6 * size * u * 3, v + lean * u, size * (1 - u * u)));
+    });
+    const auto f = cut_into_fragments(body, {curl}, {});
+    EXPECT_NEAR(check(f, body).volume / enclosed_volume(body), 1.0, 1e-12);
+    if (HasFailure()) FAIL() << "seed " << seed;
+  }
+}
+
+TEST(Fragments, SecondSheetThroughASlit) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int seed = 0; seed < 60; ++seed) {
+    const TriMesh body = cube(1 + seed % 4);
+    const Mat3 r = seed % 5 ? random_rotation(random) : Mat3(Mat3::Identity());
+    const double d = 0.2 * uniform(random);
+    std::vector<TriMesh> sheets{
+        seed % 2 ? disc(Vec3(0.1, 0, 0.05), Vec3(1, 0, 0), Vec3(0, 1, 0), 0.3, 4)
+                 : sheet(-0.9, 0.05, -0.9, 0.9, 9, 8, [](double u, double v) { return Vec3(u, v, 0.05); })};
+    sheets.push_back(plane_sheet(r, d, 1.2, 3 + seed % 5));
+    if (seed % 3 == 0) sheets.push_back(plane_sheet(random_rotation(random), -d, 1.2, 4));
+    const auto f = cut_into_fragments(body, sheets, {});
+    EXPECT_NEAR(check(f, body).volume, 1.0, 1e-12);
+    EXPECT_GE(f.size(), seed % 5 ? 2u : 1u);
+    if (HasFailure()) FAIL() << "seed " << seed;
+  }
+}
+
+TEST(Fragments, DomeOverACrackInside) {
+  // a flat disc in the inside and a cap over it, which reaches a little through: they close off a lens
+  const TriMesh body = cube(2);
+  const TriMesh flat = disc(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 0.3, 4);
+  TriMesh cap = disc(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), 0.28, 5);
+  for (Vec3& x : cap.positions)
+    x.z() = 0.1 - 2 * x.squaredNorm();
+  const auto f = cut_into_fragments(body, {flat, cap}, {});
+  ASSERT_EQ(f.size(), 2u);
+  EXPECT_NEAR(check(f, body).volume, 1.0, 1e-14);
+  EXPECT_NEAR(f[1].volume, std::numbers::pi * 0.1 * 0.1 / 4, 1e-3);  // paraboloid: π h²/(2·2)
+}
+
 TEST(Separation, CountsPiecesOfTheCoarseComplex) {
   const TriMesh body = cube(4);
   EXPECT_EQ(count_pieces(corefine(body, plane_sheet(Mat3::Identity(), 0.1, 0.8, 5))), 2u);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "conchoid/mesh/expansion.hpp"
 
@@ -182,25 +183,78 @@ std::array<const PerturbedPoint*, 3> sorted(std::array<const PerturbedPoint*, 3>
   return t;
 }
 
+/// Unit normal; the same bits, up to the map, for a reflected mesh. Zero without area.
+Vec3 exact_mirror_normal(const TriMesh& mesh, TriId t, double& area) {
+  const auto& corners = mesh.corners[t];
+  auto c = corners;
+  std::sort(c.begin(), c.end());
+  const bool even = corners[1] == c[(std::find(c.begin(), c.end(), corners[0]) - c.begin() + 1) % 3];
+  const Vec3 n = area_vector2(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]);
+  area = n.norm();
+  return area > 0 ? Vec3((even ? 1 : -1) / area * n) : Vec3(Vec3::Zero());
+}
+
+/// Per node a direction on the outer side of all triangles around it, where there is one: a surface that
+/// shrinks against it opens even where two parts of it lie on each other, as the two faces of a crack do.
+/// Elsewhere (a crack front) the sum of the normals.
+IdVector<NodeId, Vec3> seen_by_all(const TriMesh& mesh) {
+  constexpr double sliver = 1e-8, clearance = 0.05;
+  constexpr int most_steps = 100;
+  IdVector<TriId, Vec3> normals(mesh.triangle_count());
+  IdVector<TriId, double> areas(mesh.triangle_count());
+  IdVector<NodeId, double> largest(mesh.node_count(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
+    for (const NodeId n : mesh.corners[TriId(t)])
+      largest[n] = std::max(largest[n], areas[TriId(t)]);
+  }
+  const auto counts = [&](TriId t, NodeId n) { return areas[t] > sliver * largest[n]; };
+  IdVector<NodeId, Vec3> sum(mesh.node_count(), Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (const NodeId n : mesh.corners[TriId(t)])
+      if (counts(TriId(t), n)) sum[n] += normals[TriId(t)];
+  const auto hidden = [&](const Vec3& direction, const Vec3& normal) {
+    return !(direction.dot(normal) > clearance * direction.norm());
+  };
+  std::map<NodeId, std::vector<TriId>> to_improve;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (const NodeId n : mesh.corners[TriId(t)])
+      if (counts(TriId(t), n) && hidden(sum[n], normals[TriId(t)])) to_improve[n];
+  for (std::size_t t = 0; t < mesh.triangle_count() && !to_improve.empty(); ++t)
+    for (const NodeId n : mesh.corners[TriId(t)])
+      if (const auto found = to_improve.find(n); found != to_improve.end() && counts(TriId(t), n))
+        found->second.emplace_back(t);
+  for (const auto& [n, around] : to_improve) {
+    Vec3 direction = sum[n];
+    for (int step = 0; step < most_steps; ++step) {
+      const auto worst = std::min_element(around.begin(), around.end(), [&](TriId s, TriId t) {
+        return direction.dot(normals[s]) < direction.dot(normals[t]);
+      });
+      if (!hidden(direction, normals[*worst])) {
+        sum[n] = direction;
+        break;
+      }
+      direction += normals[*worst];
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std::uint32_t first_id) {
   std::vector<PerturbedPoint> points(mesh.node_count());
+  const IdVector<NodeId, Vec3> normals = seen_by_all(mesh);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].x = mesh.positions[NodeId(i)];
+    points[i].along = role == Role::surface ? Vec3(-normals[NodeId(i)]) : normals[NodeId(i)];
     points[i].exponent = role == Role::sheet ? 1 : 4;
     points[i].id = first_id + static_cast<std::uint32_t>(i);
   }
-  for (const auto& corners : mesh.corners) {
-    auto c = corners;  // ascending: the same sums, up to the map, for a reflected mesh
+  for (auto c : mesh.corners) {
     std::sort(c.begin(), c.end());
-    const bool even = corners[1] == c[(std::find(c.begin(), c.end(), corners[0]) - c.begin() + 1) % 3];
-    Vec3 normal = area_vector2(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]);
-    if (!even) normal = -normal;
-    if (role == Role::surface) normal = -normal;
     for (int k = 0; k < 3; ++k) {
       PerturbedPoint& p = points[c[k].index()];
-      p.along += normal;
       for (int j = 0; j < 3; ++j) {
         if (j == k) continue;
         const auto key = (std::uint64_t(p.id) << 32) | points[c[j].index()].id;

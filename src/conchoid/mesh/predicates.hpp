@@ -13,11 +13,11 @@ namespace conchoid {
 ///
 ///     x(ε) = x + ε^p·along + ε^16·across + ε^64·hash(id),   p = 1 for the sheet, 4 for the surface
 ///
-/// `along`: the sheet moves along its own normal, the surface shrinks against its normal — a sheet in the
-/// plane of surface nodes passes beside them, a sheet that ends exactly on the surface reaches through it.
-/// `across`: sum of the incident edge vectors with weights drawn from the ids, for lines that would still
-/// meet. All but the last term (which is almost never reached) move with the meshes under rotation,
-/// reflection and scaling.
+/// `along`: the sheet moves along its own normal, the surface shrinks against its normals, which opens cracks
+/// in it — a sheet in the plane of surface nodes passes beside them, a sheet that ends exactly on the surface
+/// reaches through it. `across`: sum of the incident edge vectors with weights drawn from the ids, for lines
+/// that would still meet. All but the last term (which is almost never reached) move with the meshes under
+/// rotation, reflection and scaling.
 struct PerturbedPoint {
   Vec3 x = Vec3::Zero();
   Vec3 along = Vec3::Zero();
