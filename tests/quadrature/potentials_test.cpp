@@ -15,14 +15,15 @@ const Triangle slim = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.7, 0.02, 0.01)};  //
 
 /// ∫_Y of the kernel by rays from the foot of x: signed triangles (foot, edge), each smooth in polar fashion.
 Family brute_force(const Vec3& x, const Panel& y) {
-  const Vec3 foot = x - y.normal.dot(x - y.x[0]) * y.normal;
+  const Vec3 height = y.normal.dot(x - y.x[0]) * y.normal, foot = x - height;
   Family sum = Family::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Triangle t = {foot, y.x[i], y.x[(i + 1) % 3]};
+    const Triangle t = {Vec3::Zero(), y.x[i] - foot, y.x[(i + 1) % 3] - foot};
     const double signed_area = area_vector2(t[0], t[1], t[2]).dot(y.normal);
     if (std::abs(signed_area) < 1e-15) continue;
-    sum += std::copysign(1.0, signed_area) *
-           oracle::over_triangle<7>(t, 1e-13 * y.area, [&](const Vec3& p) { return oracle::kernel(x - p); });
+    sum += std::copysign(1.0, signed_area) * oracle::over_triangle<7>(t, 1e-13 * y.area, [&](const Vec3& p) {
+             return oracle::kernel(height - p);
+           });
   }
   return sum;
 }

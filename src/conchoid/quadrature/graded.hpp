@@ -30,12 +30,12 @@ std::vector<GradedNode> graded_toward_ends(int levels, int order);
 template <int N, class F>
 Eigen::Matrix<double, N, 1> integrate_graded(const Triangle& outer, const PanelPotential& source,
                                              double tolerance, const F& potential) {
-  const double gap = std::max({std::abs(source.height(outer[0])), std::abs(source.height(outer[1])),
+  const double gap = std::min({std::abs(source.height(outer[0])), std::abs(source.height(outer[1])),
                                std::abs(source.height(outer[2]))});
   // Finer than this the layer at an edge no longer counts.
   const int useful = static_cast<int>(std::ceil(-std::log2(tolerance) / 2)) + 1;
   // Each interval sees the steep edge from a third of its length: Gauss converges by 9 per point.
-  const int order = static_cast<int>(std::ceil(-0.8 * std::log10(tolerance))) + 2;
+  const int order = static_cast<int>(std::ceil(-0.8 * std::log10(tolerance))) + 3;
   const auto levels = [&](double scale) {
     return scale < 1 ? std::min(static_cast<int>(std::ceil(-std::log2(scale) / 2)), useful) : 0;
   };

@@ -46,18 +46,6 @@ double largest_height(const Triangle& t, const PanelPotential& plane) {
   return std::max({std::abs(plane.height(t[0])), std::abs(plane.height(t[1])), std::abs(plane.height(t[2]))});
 }
 
-/// A point of both planes close to the origin, if they meet: exactly, or up to `gap` because they coincide so
-/// far.
-std::optional<Vec3> common_point(const NearPair& pair, double gap) {
-  if (std::max(largest_height(pair.x, pair.of_y), largest_height(pair.y, pair.of_x)) <= gap)
-    return Vec3::Zero();
-  const double sine2 = cross(pair.normal_x, pair.normal_y).squaredNorm();
-  if (sine2 == 0) return std::nullopt;
-  const double g = pair.normal_x.dot(pair.normal_y);
-  const double dx = pair.normal_x.dot(pair.x[0]), dy = pair.normal_y.dot(pair.y[0]);
-  return Vec3(((dx - g * dy) / sine2) * pair.normal_x + ((dy - g * dx) / sine2) * pair.normal_y);
-}
-
 /// Outward distances of a panel's edges from c.
 std::array<double, 3> edge_distances(const PanelPotential& panel, const Vec3& c) {
   std::array<double, 3> d;
@@ -75,10 +63,59 @@ double amplification(const PanelPotential& panel, const Vec3& c) {
   return sum / panel.double_area();
 }
 
+/// A point of both planes, and how many digits (Q5) loses to cancellation when taken about it.
+struct Apex {
+  Vec3 c;
+  double loss;
+};
+
+/// @param with_corners  the corner functions of Y enter too
+double loss_about(const NearPair& pair, const Vec3& c, bool with_corners) {
+  const double terms = std::max(amplification(pair.of_x, c), amplification(pair.of_y, c));
+  return with_corners ? terms * std::max(1.0, pair.of_y.corner_functions(c).cwiseAbs().maxCoeff()) : terms;
+}
+
+/// The best of a few points where the planes meet: closest to either panel, and where their line crosses the
+/// edge lines.
+std::optional<Apex> best_apex(const NearPair& pair, bool with_corners) {
+  const Vec3 direction = cross(pair.normal_x, pair.normal_y);
+  const double sine2 = direction.squaredNorm();
+  if (sine2 == 0) return std::nullopt;
+  const double g = pair.normal_x.dot(pair.normal_y);
+  const double dx = pair.normal_x.dot(pair.x[0]), dy = pair.normal_y.dot(pair.y[0]);
+  const Vec3 start = ((dx - g * dy) / sine2) * pair.normal_x + ((dy - g * dx) / sine2) * pair.normal_y;
+  Apex best{start, loss_about(pair, start, with_corners)};
+  const auto consider = [&](double along) {
+    if (!std::isfinite(along)) return;
+    const Vec3 c = start + along * direction;
+    const double loss = loss_about(pair, c, with_corners);
+    if (loss < best.loss) best = {c, loss};
+  };
+  for (const PanelPotential* panel : {&pair.of_x, &pair.of_y}) {
+    const Vec3 center = (panel->corner(0) + panel->corner(1) + panel->corner(2)) / 3;
+    consider(direction.dot(center - start) / sine2);
+    for (int e = 0; e < 3; ++e) {
+      consider(panel->edge_normal(e).dot(panel->corner(e) - start) / panel->edge_normal(e).dot(direction));
+    }
+  }
+  return best;
+}
+
+/// (Q5) about c keeps the tolerance in spite of rounding.
+bool accurate(const Apex& apex, double tolerance) {
+  return apex.loss * 200 * epsilon <= tolerance;
+}
+
+/// So steep to each other that neither cells nor grading would resolve the panels' crossing: (Q5) whatever it
+/// loses.
+bool steep(const NearPair& pair) {
+  return cross(pair.normal_x, pair.normal_y).squaredNorm() > 1e-2;
+}
+
 /// Σ_e d_e ∫_e f over the edges of one panel, broken where they pass through the plane of the other.
 template <int N, class F>
 Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelPotential& other,
-                                       const Vec3& c, double allowed, const F& f) {
+                                       const Vec3& c, double allowed, double rounding, const F& f) {
   const std::array<double, 3> d = edge_distances(panel, c);
   Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -88,7 +125,8 @@ Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelP
     const double factor = d[i] * panel.edge_length(i);
     if (factor == 0) continue;
     const auto on_edge = [&](double s) { return f((1 - s) * a + s * b); };
-    sum += factor * integrate_unit_segment<N>(on_edge, std::array{crossing}, allowed / std::abs(factor));
+    sum += factor *
+           integrate_unit_segment<N>(on_edge, std::array{crossing}, allowed / std::abs(factor), rounding);
   }
   return sum;
 }
@@ -159,61 +197,72 @@ constexpr int costly_budget = 4000;  // points: about the price of the graded fo
 
 Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
   const NearPair pair = near_pair(px, py);
-  Family sum;
   const bool outer_x = pair.radius_x <= pair.radius_y;
   const PanelPotential& inner = outer_x ? pair.of_y : pair.of_x;
   const Triangle& outer = outer_x ? pair.x : pair.y;
   const double outer_area = outer_x ? pair.area_x : pair.area_y;
   const auto potential = [&](const Vec3& p) { return inner.single_layer(p); };
+  const auto about = [&](const Vec3& c) {
+    const double allowed = tolerance * pair.area_x * pair.area_y / pair.diameter;
+    const double rounding = 50 * epsilon;
+    const auto of_x = [&](const Vec3& p) { return pair.of_x.single_layer(p); };
+    const auto of_y = [&](const Vec3& p) { return pair.of_y.single_layer(p); };
+    return Family((over_edges<7>(pair.of_x, pair.of_y, c, allowed, rounding, of_y) +
+                   over_edges<7>(pair.of_y, pair.of_x, c, allowed, rounding, of_x)) /
+                  3);
+  };
+  Family sum;
   if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, cheap_budget, potential, sum))
     return sum;
-
   const double gap = std::max(pair.noise, 1e-3 * tolerance * std::min(pair.radius_x, pair.radius_y));
-  if (const std::optional<Vec3> c = common_point(pair, gap)) {
-    const double loss = std::max(amplification(pair.of_x, *c), amplification(pair.of_y, *c));
-    if (loss * 1000 * epsilon <= tolerance) {
-      const double allowed = tolerance * pair.area_x * pair.area_y / pair.diameter;
-      return (over_edges<7>(pair.of_x, pair.of_y, *c, allowed,
-                            [&](const Vec3& p) { return pair.of_y.single_layer(p); }) +
-              over_edges<7>(pair.of_y, pair.of_x, *c, allowed,
-                            [&](const Vec3& p) { return pair.of_x.single_layer(p); })) /
-             3;
-    }
-  }
+  if (std::max(largest_height(pair.x, pair.of_y), largest_height(pair.y, pair.of_x)) <= gap)
+    return about(Vec3::Zero());
+  const std::optional<Apex> apex = best_apex(pair, false);
+  if (apex && accurate(*apex, tolerance)) return about(apex->c);
   if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, costly_budget, potential, sum))
     return sum;
-  return integrate_graded<7>(outer, inner, tolerance, potential);
+  return apex && steep(pair) ? about(apex->c) : integrate_graded<7>(outer, inner, tolerance, potential);
 }
 
 Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
   const NearPair pair = near_pair(px, py);
   if (coplanar(pair.x, pair.of_y, pair.noise)) return Vec3::Zero();
-  Vec3 sum;
   const auto potential = [&](const Vec3& p) { return pair.of_y.double_layer(p); };
-  if (over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, tolerance, cheap_budget, potential, sum))
-    return sum;
-
-  if (const std::optional<Vec3> c = common_point(pair, 0)) {
-    const Vec3 at_c = pair.of_y.corner_functions(*c);
-    const double loss = std::max(amplification(pair.of_x, *c), amplification(pair.of_y, *c)) *
-                        std::max(1.0, at_c.cwiseAbs().maxCoeff());
-    if (loss * 1000 * epsilon <= tolerance) {
-      // N_j = N_j(c) + a part that vanishes at c: degree −2 (divisor 2) and −1 (divisor 3).
-      const double allowed = tolerance * pair.area_x * pair.area_y / (pair.diameter * pair.diameter);
-      return over_edges<3>(pair.of_x, pair.of_y, *c, allowed,
-                           [&](const Vec3& p) {
-                             const Vec3 v = pair.of_y.double_layer(p);
-                             return Vec3(v / 3 + (v.sum() / 6) * at_c);
-                           }) +
-             over_edges<3>(pair.of_y, pair.of_x, *c, allowed, [&](const Vec3& p) {
-               const double field = pair.normal_y.dot(pair.of_x.gradient(p));
-               return Vec3(field * (pair.of_y.corner_functions(p) / 3 + at_c / 6));
-             });
+  // Cells over the smaller panel: potentials of Y over X, or the field of X over Y.
+  const auto cells = [&](int budget, Vec3& sum) {
+    const double cell_tolerance = tolerance / 4;
+    if (pair.radius_x <= pair.radius_y) {
+      return over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, cell_tolerance, budget, potential,
+                           sum);
     }
-  }
-  if (over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, tolerance, costly_budget, potential, sum))
-    return sum;
-  return integrate_graded<3>(pair.x, pair.of_y, tolerance, potential);
+    const auto field = [&](const Vec3& p) {
+      return Vec3(pair.normal_y.dot(pair.of_x.gradient(p)) * pair.of_y.corner_functions(p));
+    };
+    return over_cells<3>(Layer::dbl, pair.y, pair.area_y, pair.of_x, cell_tolerance, budget, field, sum);
+  };
+  // N_j = N_j(c) + a part that vanishes at c: degree −2 (divisor 2) and −1 (divisor 3).
+  const auto about = [&](const Vec3& c) {
+    const double allowed = tolerance * pair.area_x * pair.area_y / (pair.diameter * pair.diameter);
+    const Vec3 at_c = pair.of_y.corner_functions(c);
+    // Heights are rounded relative to the length of Y, corner functions relative to its thickness.
+    const double rounding = 50 * epsilon * pair.radius_y * pair.radius_y / pair.area_y;
+    const auto of_y = [&](const Vec3& p) {
+      const Vec3 v = pair.of_y.double_layer(p);
+      return Vec3(v / 3 + (v.sum() / 6) * at_c);
+    };
+    const auto of_x = [&](const Vec3& p) {
+      const double field = pair.normal_y.dot(pair.of_x.gradient(p));
+      return Vec3(field * (pair.of_y.corner_functions(p) / 3 + at_c / 6));
+    };
+    return Vec3(over_edges<3>(pair.of_x, pair.of_y, c, allowed, rounding, of_y) +
+                over_edges<3>(pair.of_y, pair.of_x, c, allowed, rounding, of_x));
+  };
+  Vec3 sum;
+  if (cells(cheap_budget, sum)) return sum;
+  const std::optional<Apex> apex = best_apex(pair, true);
+  if (apex && accurate(*apex, tolerance)) return about(apex->c);
+  if (cells(costly_budget, sum)) return sum;
+  return apex && steep(pair) ? about(apex->c) : integrate_graded<3>(pair.x, pair.of_y, tolerance, potential);
 }
 
 }  // namespace conchoid

@@ -27,66 +27,79 @@ struct KronrodRule {
       0, 0.381830050505118944950369775488975, 0, 0.417959183673469387755102040816327};
 };
 
-/// ∫_a^b f(t) dt of a vector-valued function by bisection with the (7, 15) Gauss–Kronrod pair, each interval
-/// until the two differ by less than `tolerance` (absolute, every component), or by rounding, or is too short
-/// to halve. Kinks, jumps and logarithms inside [a, b] cost bisections, not accuracy; what the caller knows
-/// of them belongs at an end.
+/// One interval's Kronrod value and how far the Gauss value is from it, in the component that differs most.
+template <int N>
+struct KronrodInterval {
+  double a, b;
+  Eigen::Matrix<double, N, 1> value;
+  double error;
+};
+
+/// @param rounding  relative error of f itself: differences below it are not worth a bisection
 template <int N, class F>
-Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, double tolerance) {
+KronrodInterval<N> kronrod_interval(const F& f, double a, double b, double rounding) {
   using Vector = Eigen::Matrix<double, N, 1>;
-  constexpr int max_depth = 46;
-  constexpr int max_intervals = 600;
-  struct Interval {
-    double a, b;
-    int depth;
-  };
-  std::array<Interval, max_depth + 2> stack;
-  int top = 0;
-  stack[top++] = {a, b, 0};
-  Vector sum = Vector::Zero();
-  for (int intervals = 0; top > 0; ++intervals) {
-    const Interval now = stack[--top];
-    const double mid = 0.5 * (now.a + now.b), half = 0.5 * (now.b - now.a);
-    const Vector at_mid = f(mid);
-    Vector kronrod = KronrodRule::weight[7] * at_mid;
-    Vector gauss = KronrodRule::gauss_weight[7] * at_mid;
-    double size = kronrod.cwiseAbs().maxCoeff();
-    for (int i = 0; i < 7; ++i) {
-      const double d = half * KronrodRule::node[i];
-      const Vector low = f(mid - d), high = f(mid + d);
-      const Vector both = low + high;
-      kronrod += KronrodRule::weight[i] * both;
-      if (i % 2 == 1) gauss += KronrodRule::gauss_weight[i] * both;
-      size += KronrodRule::weight[i] * (low.cwiseAbs() + high.cwiseAbs()).maxCoeff();
-    }
-    const double error = (kronrod - gauss).cwiseAbs().maxCoeff();
-    const double noise = 50 * std::numeric_limits<double>::epsilon() * size;
-    if (error * half <= tolerance || error <= noise || now.depth >= max_depth || intervals >= max_intervals) {
-      sum += half * kronrod;
-    } else {
-      stack[top++] = {mid, now.b, now.depth + 1};
-      stack[top++] = {now.a, mid, now.depth + 1};
-    }
+  const double mid = 0.5 * (a + b), half = 0.5 * (b - a);
+  const Vector at_mid = f(mid);
+  Vector kronrod = KronrodRule::weight[7] * at_mid;
+  Vector gauss = KronrodRule::gauss_weight[7] * at_mid;
+  double size = kronrod.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < 7; ++i) {
+    const double d = half * KronrodRule::node[i];
+    const Vector low = f(mid - d), high = f(mid + d);
+    const Vector both = low + high;
+    kronrod += KronrodRule::weight[i] * both;
+    if (i % 2 == 1) gauss += KronrodRule::gauss_weight[i] * both;
+    size += KronrodRule::weight[i] * (low.cwiseAbs() + high.cwiseAbs()).maxCoeff();
   }
+  const double error = (kronrod - gauss).cwiseAbs().maxCoeff();
+  const bool done = !(error > rounding * size) || !(a < mid && mid < b);
+  return {a, b, half * kronrod, done ? 0.0 : half * error};
+}
+
+/// ∫_a^b f(t) dt of a vector-valued function: the (7, 15) Gauss–Kronrod pair, the interval with the largest
+/// difference halved until the differences add up to less than `tolerance` (absolute, in every component).
+/// The Kronrod values are far better than that where f is smooth. Kinks, jumps and logarithms inside cost
+/// bisections, not accuracy; what the caller knows of them belongs at an end.
+template <int N, class F>
+Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, double tolerance,
+                                              double rounding = 50 * std::numeric_limits<double>::epsilon()) {
+  constexpr int max_intervals = 240;
+  std::array<KronrodInterval<N>, max_intervals> intervals;
+  int count = 0;
+  intervals[count++] = kronrod_interval<N>(f, a, b, rounding);
+  while (count < max_intervals) {
+    int worst = 0;
+    double error = 0;
+    for (int i = 0; i < count; ++i) {
+      error += intervals[i].error;
+      if (intervals[i].error > intervals[worst].error) worst = i;
+    }
+    if (!(error > tolerance)) break;
+    const double from = intervals[worst].a, to = intervals[worst].b, mid = 0.5 * (from + to);
+    intervals[worst] = kronrod_interval<N>(f, from, mid, rounding);
+    intervals[count++] = kronrod_interval<N>(f, mid, to, rounding);
+  }
+  Eigen::Matrix<double, N, 1> sum = intervals[0].value;
+  for (int i = 1; i < count; ++i)
+    sum += intervals[i].value;
   return sum;
 }
 
 /// The same over [0, 1], broken at the points of `breaks` that lie inside (any order, at most a few).
 template <int N, std::size_t M, class F>
-Eigen::Matrix<double, N, 1> integrate_unit_segment(const F& f, std::array<double, M> breaks,
-                                                   double tolerance) {
-  for (std::size_t i = 1; i < M; ++i) {
-    for (std::size_t j = i; j > 0 && breaks[j] < breaks[j - 1]; --j)
-      std::swap(breaks[j], breaks[j - 1]);
-  }
+Eigen::Matrix<double, N, 1> integrate_unit_segment(const F& f, std::array<double, M> breaks, double tolerance,
+                                                   double rounding = 50 *
+                                                                     std::numeric_limits<double>::epsilon()) {
+  std::sort(breaks.begin(), breaks.end());
   Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
   double from = 0;
   for (double b : breaks) {
     if (!(b > from && b < 1)) continue;
-    sum += integrate_segment<N>(f, from, b, tolerance);
+    sum += integrate_segment<N>(f, from, b, tolerance, rounding);
     from = b;
   }
-  return sum + integrate_segment<N>(f, from, 1.0, tolerance);
+  return sum + integrate_segment<N>(f, from, 1.0, tolerance, rounding);
 }
 
 }  // namespace conchoid
