@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
 
+#include "conchoid/mesh/formats.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
 #include "mesh/cut_shapes.hpp"
@@ -25,6 +28,8 @@ struct Total {
 /// Every fragment closed, oriented, with sound tags; original faces lie where they came from.
 Total check(const std::vector<Fragment>& fragments, const TriMesh& body) {
   Total total;
+  const Box box = bounding_box(body);
+  const double tolerance = 1e-11 * std::max(box.low.norm(), box.high.norm());
   double original_area = 0;
   std::set<std::array<double, 3>> nodes;
   for (const Vec3& x : body.positions)
@@ -49,7 +54,7 @@ Total check(const std::vector<Fragment>& fragments, const TriMesh& body) {
         EXPECT_LT(f.source[t].index(), body.triangle_count());
         const Vec3 n = unit_normal(body, f.source[t]);
         EXPECT_NEAR(n.dot(centroid(f.mesh, TriId(t)) - body.positions[body.corners[f.source[t]][0]]), 0,
-                    1e-11 * bounding_box(body).high.norm());
+                    tolerance);
       }
     }
     for (const auto& [edge, uses] : directed) {
@@ -298,6 +303,26 @@ TEST(Fragments, DomeOverACrackInside) {
   ASSERT_EQ(f.size(), 2u);
   EXPECT_NEAR(check(f, body).volume, 1.0, 1e-14);
   EXPECT_NEAR(f[1].volume, std::numbers::pi * 0.1 * 0.1 / 4, 1e-3);  // paraboloid: π h²/(2·2)
+}
+
+TEST(Fragments, ArmadilloCutByAPlane) {
+  const std::filesystem::path path = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const TriMesh body = read_mesh(path);
+  const Box box = bounding_box(body);
+  std::mt19937 random(10);
+  for (int k = 0; k < 3; ++k) {
+    const Mat3 r = random_rotation(random);
+    const TriMesh plane = sheet(-120, 120, -120, 120, 60, 60, [&](double u, double v) {
+      return Vec3(box.center() + r * Vec3(u, v, 3 * std::sin(0.1 * u)));
+    });
+    const auto start = std::chrono::steady_clock::now();
+    const auto f = cut_into_fragments(body, {plane}, {});
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    RecordProperty("milliseconds", static_cast<int>(1000 * seconds.count()));
+    EXPECT_GE(f.size(), 2u);
+    EXPECT_NEAR(check(f, body).volume / enclosed_volume(body), 1.0, 1e-12);
+  }
 }
 
 TEST(Separation, CountsPiecesOfTheCoarseComplex) {

@@ -1,6 +1,7 @@
 #include "conchoid/surface/fragments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -99,18 +100,45 @@ std::vector<Piece> separate(const CutComplex& cut, const Shells& shells, const P
   return pieces;
 }
 
-std::vector<Piece> cut_piece(Piece piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
-                             double minimum_volume) {
+/// The sheet moved along its own normals by a share of its size.
+TriMesh nudged(TriMesh sheet, double share) {
+  IdVector<NodeId, Vec3> normals(sheet.node_count(), Vec3::Zero());
+  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
+    for (const NodeId n : sheet.corners[TriId(t)])
+      normals[n] += unit_normal(sheet, TriId(t));
+  const double step = share * bounding_box(sheet).diagonal();
+  for (std::size_t i = 0; i < sheet.node_count(); ++i)
+    if (const double length = normals[NodeId(i)].norm(); length > 0)
+      sheet.positions[NodeId(i)] += step / length * normals[NodeId(i)];
+  return sheet;
+}
+
+std::vector<Piece> cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
+                                  double minimum_volume) {
   const CutComplex cut = corefine(piece.mesh, sheet);
-  std::vector<Piece> result;
-  if (cut.sheet.empty() && cut.mouth.empty()) {
-    result.push_back(std::move(piece));
-    return result;
-  }
+  if (cut.sheet.empty() && cut.mouth.empty()) return {piece};
   Shells shells = glue(cut);
   const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
   if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
   return separate(cut, shells, piece, first_sheet_triangle);
+}
+
+/// Earlier cuts have left rounded nodes: where faces of theirs overlap by round-off, a sheet may not find a
+/// way through. Then it is moved by far less than any visible size.
+std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
+                             double minimum_volume) {
+  constexpr std::array nudges{1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
+  try {
+    return cut_piece_once(piece, sheet, first_sheet_triangle, minimum_volume);
+  } catch (const ComputationError&) {
+    for (const double share : nudges)
+      try {
+        return cut_piece_once(piece, nudged(sheet, share), first_sheet_triangle, minimum_volume);
+      } catch (const ComputationError&) {
+        continue;
+      }
+    throw;
+  }
 }
 
 }  // namespace
@@ -126,9 +154,9 @@ std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vect
   std::size_t first_sheet_triangle = 0;
   for (const TriMesh& sheet : sheets) {
     std::vector<Piece> next;
-    for (Piece& piece : pieces)
-      for (Piece& part : cut_piece(std::move(piece), sheet, first_sheet_triangle,
-                                   settings.minimum_volume_fraction * body_volume))
+    for (const Piece& piece : pieces)
+      for (Piece& part :
+           cut_piece(piece, sheet, first_sheet_triangle, settings.minimum_volume_fraction * body_volume))
         next.push_back(std::move(part));
     pieces = std::move(next);
     first_sheet_triangle += sheet.triangle_count();
