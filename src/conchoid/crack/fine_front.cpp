@@ -280,8 +280,29 @@ void FineFront::finish() {
     leave_row(curve, kLastRowAfter * settings_.spacing);
 }
 
+namespace {
+
+/// Stops nodes that are going to touch before the markers set out, so that both fronts stop at the same
+/// place.
+void arrest_touching(CrackSheet& sheet, const std::vector<FrontStep>& steps, const ToughnessField& toughness,
+                     double target_edge) {
+  std::vector<FrontMotion> expected;
+  for (const FrontStep& step : steps) {
+    if (sheet.state[step.node] == FrontState::arrested) continue;
+    const double length =
+        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]), target_edge);
+    if (length > 0)
+      expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
+  }
+  for (NodeId node : touching_nodes(sheet, expected, target_edge))
+    sheet.state[node] = FrontState::arrested;
+}
+
+}  // namespace
+
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
                              const ToughnessField& toughness, double target_edge) {
+  arrest_touching(sheet, steps, toughness, target_edge);
   const auto motions = fine.advance(sheet, steps, toughness);
   AdvanceSettings settings;
   settings.smoothing = 0;

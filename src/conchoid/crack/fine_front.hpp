@@ -83,7 +83,8 @@ class FineFront {
   int frame_ = 0;
 };
 
-/// One frame of the coarse and the fine front together.
+/// One frame of the coarse and the fine front together. Nodes about to touch (touching_nodes) are arrested
+/// first, so that both fronts stop there.
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
                              const ToughnessField& toughness, double target_edge);
 

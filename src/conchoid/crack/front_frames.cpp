@@ -1,5 +1,6 @@
 #include "conchoid/crack/front_frames.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace conchoid {
@@ -13,15 +14,18 @@ Vec3 normalized_or_zero(const Vec3& v) {
   return w / w.norm();
 }
 
-/// Direction of the curve at x between its neighbours: each edge direction weighted by the length of the
-/// other one.
+/// Direction of the curve at x between its neighbours. Where the curve is smooth, that of the circle through
+/// the three points (each edge direction weighted by the length of the other edge); at a corner the bisector,
+/// which no edge has behind it.
 Vec3 tangent(const Vec3& before, const Vec3& x, const Vec3& after) {
-  const Vec3 in = x - before, out = after - x;
-  const double in_length = in.norm(), out_length = out.norm();
-  const Vec3 sum = normalized_or_zero(in) * out_length + normalized_or_zero(out) * in_length;
-  const double least = 1e-6 * (in_length + out_length);  // a front that turns back on itself has no bisector
-  if (in_length > 0 && out_length > 0 && sum.norm() > least) return normalized_or_zero(sum);
-  return normalized_or_zero(out_length > 0 ? out : in);
+  const double in_length = (x - before).norm(), out_length = (after - x).norm();
+  const Vec3 in = normalized_or_zero(x - before), out = normalized_or_zero(after - x);
+  if (!(in_length > 0) || !(out_length > 0)) return out_length > 0 ? out : in;
+  const Vec3 bisector = normalized_or_zero(in + out);
+  const Vec3 circle = normalized_or_zero(in * out_length + out * in_length);
+  const double straightness = std::max(0.0, in.dot(out)), smooth = straightness * straightness;
+  if ((in + out).norm() < 1e-6) return out;  // a front that turns back on itself has no bisector
+  return normalized_or_zero((1 - smooth) * bisector + smooth * circle);
 }
 
 bool orthonormalize(const Vec3& normal, const Vec3& along, FrontFrame& frame) {

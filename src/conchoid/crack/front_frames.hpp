@@ -11,8 +11,9 @@ namespace conchoid {
 IdVector<NodeId, Vec3> node_area_vectors(const TriMesh& mesh);
 
 /// Frames along a front. e1: node normal; e3: tangent of the circle through the node and its two neighbours,
-/// made perpendicular to e1 (at an open end the one adjacent edge); e2 = e3 × e1. A node whose triangles are
-/// all degenerate takes the frame of the nearest node of the front that has one.
+/// at corners the bisector of the two edges, at an open end the one edge, made perpendicular to e1; e2 = e3 ×
+/// e1. A node whose triangles are all degenerate takes the frame of the nearest node of the front that has
+/// one.
 std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId, Vec3>& normals,
                                      const std::vector<NodeId>& nodes, bool closed);
 

@@ -271,7 +271,8 @@ class Drafting {
     const double from_i = (draft_.position[b] - draft_.position[i]).norm();
     const double from_j = (draft_.position[a] - draft_.position[j]).norm();
     const bool tie = std::abs(from_i - from_j) <= kTie * std::max(from_i, from_j);
-    const bool at_i = tie ? curve_.nodes[i] < curve_.nodes[j] : from_i < from_j;
+    bool at_i = tie ? curve_.nodes[i] < curve_.nodes[j] : from_i < from_j;
+    if (!sound_pair(i, j, a, b, at_i) && sound_pair(i, j, a, b, !at_i)) at_i = !at_i;
     if (at_i) {
       face(i, a, b, i);
       face(i, b, j, i);
@@ -279,6 +280,16 @@ class Drafting {
       face(i, a, j, i);
       face(a, b, j, i);
     }
+  }
+
+  /// Whether neither triangle of the quad i, a, b, j is turned over with the diagonal at i (else at j).
+  bool sound_pair(std::size_t i, std::size_t j, std::size_t a, std::size_t b, bool at_i) const {
+    const auto& x = draft_.position;
+    const Vec3 expected = cross(x[a] - x[i] + x[b] - x[j], x[j] - x[i]);
+    const Vec3 first = at_i ? area_vector2(x[i], x[a], x[b]) : area_vector2(x[i], x[a], x[j]);
+    const Vec3 second = at_i ? area_vector2(x[i], x[b], x[j]) : area_vector2(x[a], x[b], x[j]);
+    return first.dot(expected) > kLeastCosine * first.norm() * expected.norm() &&
+           second.dot(expected) > kLeastCosine * second.norm() * expected.norm();
   }
 
   void face(std::size_t a, std::size_t b, std::size_t c, std::size_t edge) {

@@ -49,10 +49,10 @@ struct Strip {
 };
 
 /// Appends the strip between the old and the new curve: two triangles per moved edge (one where only one end
-/// moved), the shorter diagonal, at equal length (1e-6) the one at the old node with the smaller id. Ids
-/// depend on old ids only, never on the direction of the walk or on coordinates: a mirrored curve gets the
-/// mirrored strip. No triangle is degenerate or turned over: where that would happen, the displacements
-/// involved are halved, in the end not carried out.
+/// moved), the shorter diagonal, at equal length (1e-6) the one at the old node with the smaller id, the
+/// other one if a triangle would be turned over. Ids depend on old ids only, never on the direction of the
+/// walk or on coordinates: a mirrored curve gets the mirrored strip. No triangle is degenerate or turned
+/// over: where that would happen, the displacements involved are halved, in the end not carried out.
 Strip append_strip(TriMesh& mesh, const StripCurve& curve, const StripSettings& settings);
 
 }  // namespace conchoid
