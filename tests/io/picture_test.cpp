@@ -15,10 +15,6 @@ namespace {
 
 const PictureSettings small{240, 160, Vec3(0.62, -1.0, 0.52), Vec3(0, 0, 1), 2, true, true};
 
-struct ColorCount {
-  std::size_t warm = 0, grey_dark = 0;
-};
-
 /// Pixels that are clearly orange in columns [from, to).
 std::size_t warm_pixels(const Image& image, int from, int to) {
   std::size_t count = 0;

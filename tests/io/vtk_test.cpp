@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <regex>
 
 #include "io/samples.hpp"
 
@@ -12,24 +12,27 @@ using namespace conchoid;
 
 namespace {
 
-/// Tags opened and closed in order, one root: the least a reader of XML asks for.
+/// Tags opened and closed in order, attributes quoted, nothing after the root: the least a reader of XML asks
+/// for.
 void expect_well_formed(const std::string& xml) {
   std::vector<std::string> open;
-  const std::regex tag(R"(<(\?|/)?([A-Za-z]+)((?:\s+[A-Za-z_]+="[^"<]*")*)\s*(/|\?)?>)");
-  std::size_t tags = 0;
-  for (std::sregex_iterator it(xml.begin(), xml.end(), tag), end; it != end; ++it, ++tags) {
-    const std::string begin = (*it)[1], name = (*it)[2], close = (*it)[4];
-    if (begin == "?" || close == "/") continue;
-    if (begin == "/") {
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at)) {
+    const std::size_t end = xml.find('>', at);
+    ASSERT_NE(end, std::string::npos);
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    at = end;
+    EXPECT_EQ(tag.find('<'), std::string::npos) << tag;
+    EXPECT_EQ(std::count(tag.begin(), tag.end(), '"'), 2 * std::count(tag.begin(), tag.end(), '=')) << tag;
+    if (tag.front() == '?' || tag.back() == '/') continue;
+    if (tag.front() == '/') {
       ASSERT_FALSE(open.empty());
-      EXPECT_EQ(open.back(), name);
+      EXPECT_EQ("/" + open.back(), tag);
       open.pop_back();
     } else {
-      open.push_back(name);
+      open.push_back(tag.substr(0, tag.find(' ')));
     }
   }
   EXPECT_TRUE(open.empty());
-  EXPECT_EQ(tags, static_cast<std::size_t>(std::count(xml.begin(), xml.end(), '<')));
 }
 
 std::string decoded(const std::string& base64) {
@@ -49,9 +52,10 @@ std::string decoded(const std::string& base64) {
 /// Numbers of the named DataArray; its byte count comes first.
 template <class T>
 std::vector<T> array(const std::string& xml, const std::string& name) {
-  std::smatch match;
-  if (!std::regex_search(xml, match, std::regex("Name=\"" + name + "\"[^>]*>([^<]*)<"))) return {};
-  const std::string bytes = decoded(match[1]);
+  const std::size_t tag = xml.find("Name=\"" + name + "\"");
+  if (tag == std::string::npos) return {};
+  const std::size_t begin = xml.find('>', tag) + 1;
+  const std::string bytes = decoded(xml.substr(begin, xml.find('<', begin) - begin));
   std::uint64_t size = 0;
   std::memcpy(&size, bytes.data(), 8);
   EXPECT_EQ(size + 8, bytes.size());
