@@ -15,6 +15,10 @@ bool contains(const std::vector<TriId>& ids, TriId t) {
   return std::find(ids.begin(), ids.end(), t) != ids.end();
 }
 
+bool overlap(const Box& a, const Box& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 }  // namespace
 
 double flatness(const Triangle& x) {
@@ -192,30 +196,35 @@ bool EditableMesh::acceptable(const Change& change) {
 
 bool EditableMesh::keeps_clear(const std::vector<std::array<NodeId, 3>>& added,
                                const std::vector<TriId>& removed) {
-  for (std::size_t i = 0; i < added.size(); ++i) {
+  std::vector<Box> boxes;
+  for (const auto& corners : added)
+    boxes.push_back(box_of(corners));
+  Box all = boxes.front();
+  for (const Box& box : boxes)
+    all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
+  for (std::size_t i = 0; i < added.size(); ++i)
     for (std::size_t j = i + 1; j < added.size(); ++j)
-      if (triangles_intersect(positions_, added[i], added[j])) return false;
-    const Box box = box_of(added[i]);
-    ++query_;
-    bool clear = true;
-    for_each_cell(box, [&](std::uint64_t cell) {
-      const auto found = grid_.find(cell);
-      if (!clear || found == grid_.end()) return;
-      for (TriId t : found->second) {
-        if (visited_[t] == query_) continue;
-        visited_[t] = query_;
-        const Box other = box_of(corners_[t]);
-        if ((other.low.array() > box.high.array()).any() || (box.low.array() > other.high.array()).any())
-          continue;
-        if (!contains(removed, t) && triangles_intersect(positions_, added[i], corners_[t])) {
+      if (overlap(boxes[i], boxes[j]) && triangles_intersect(positions_, added[i], added[j])) return false;
+  ++query_;
+  for (TriId t : removed)
+    visited_[t] = query_;
+  bool clear = true;
+  for_each_cell(all, [&](std::uint64_t cell) {
+    const auto found = grid_.find(cell);
+    if (!clear || found == grid_.end()) return;
+    for (TriId t : found->second) {
+      if (visited_[t] == query_) continue;
+      visited_[t] = query_;
+      const Box box = box_of(corners_[t]);
+      if (!overlap(all, box)) continue;
+      for (std::size_t i = 0; i < added.size(); ++i)
+        if (overlap(boxes[i], box) && triangles_intersect(positions_, added[i], corners_[t])) {
           clear = false;
           return;
         }
-      }
-    });
-    if (!clear) return false;
-  }
-  return true;
+    }
+  });
+  return clear;
 }
 
 Box EditableMesh::box_of(const std::array<NodeId, 3>& c) const {

@@ -33,7 +33,7 @@ class Remesher {
  public:
   Remesher(const TriMesh& original, double edge)
       : edge_(edge),
-        mesh_(original, edge),
+        mesh_(original, 0.5 * edge),
         features_(original, feature_angle, 4 * edge),
         surface_(original),
         lines_(lines_as_mesh(original, features_)) {}
