@@ -191,9 +191,8 @@ std::size_t mouth_ends(const CutComplex& cut) {
 TEST(Corefine, MergingLeavesNoSlivers) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::size_t pieces = 0, slivers = 0, slivers_before = 0;
-  double worst = 1;
-  for (int seed = 0; seed < 400; ++seed) {
+  std::size_t pieces = 0, slivers = 0, bad_slivers = 0, slivers_before = 0;
+  for (int seed = 0; seed < 200; ++seed) {
     const Mat3 r = random_rotation(random);
     const TriMesh body = seed % 2 ? icosphere(1 + seed % 3) : cube(2 + seed % 4);
     const double d = 0.4 * uniform(random), bend = 0.2 * uniform(random), reach = seed % 3 ? 1.3 : 0.45;
@@ -213,12 +212,100 @@ TEST(Corefine, MergingLeavesNoSlivers) {
         ++pieces;
         const double q = shape(cut.positions, c);
         slivers += q < 0.1;
-        worst = std::min(worst, q);
+        bad_slivers += q < 0.04;
       }
     if (HasFailure()) FAIL() << "seed " << seed;
   }
-  RecordProperty("slivers", static_cast<int>(slivers));
-  printf("pieces %zu slivers %zu before %zu worst %g\n", pieces, slivers, slivers_before, worst);
+  EXPECT_GT(pieces, 90000u);
+  EXPECT_GT(slivers_before, 0.08 * pieces);
+  EXPECT_LT(slivers, 0.012 * pieces);       // altitude below a tenth of the longest edge
+  EXPECT_LT(bad_slivers, 0.0015 * pieces);  // … below 4 %
+}
+
+TEST(Corefine, SheetThatEndsOnTheFaceOpensThere) {
+  // edge crack from the face x = −½, its boundary nodes exactly on it
+  for (const double tilt : {0.0, 0.3}) {
+    const TriMesh body = cube(4);
+    const TriMesh crack = sheet(-0.5, -0.2, -0.5, 0.5, 3, 9,
+                                [&](double u, double v) { return Vec3(u, v, 0.06 + tilt * (u + 0.5)); });
+    const CutComplex cut = corefine(body, crack, {.merge = 0.1});
+    check(cut, body, crack);
+    std::size_t on_face = 0;
+    double length = 0;
+    for (const Edge& e : cut.mouth) {
+      const Vec3 &a = cut.positions[e.a], &b = cut.positions[e.b];
+      if (a.x() != -0.5 || b.x() != -0.5) continue;
+      ++on_face;
+      length += (b - a).norm();
+    }
+    EXPECT_GE(on_face, 9u);
+    EXPECT_NEAR(length, 1.0, 1e-14);
+    std::set<NodeId> found;
+    for (std::size_t i = 0; i < cut.positions.size(); ++i)
+      if (cut.sheet_node[NodeId(i)].valid()) {
+        EXPECT_TRUE(found.insert(cut.sheet_node[NodeId(i)]).second) << "two nodes for one of the sheet";
+        EXPECT_LT((cut.positions[NodeId(i)] - crack.positions[cut.sheet_node[NodeId(i)]]).norm(), 0.04);
+      }
+    for (std::size_t j = 1; j < 9; ++j)
+      EXPECT_TRUE(found.contains(NodeId(4 * j))) << "boundary node " << j << " is lost";
+    EXPECT_EQ(mouth_ends(cut), 2u);
+  }
+}
+
+TEST(Corefine, SheetsInsideAndOutside) {
+  const TriMesh body = icosphere(2);
+  const TriMesh crack = disc(Vec3(0.1, 0.2, 0), Vec3(1, 0, 0), Vec3(0, 0.6, 0.8), 0.5, 4);
+  TriMesh both = crack;  // and a second part far away
+  for (const Vec3& x : crack.positions)
+    both.positions.push_back(x + Vec3(3, 0, 0));
+  for (const auto& c : crack.corners)
+    both.corners.push_back({NodeId(c[0].index() + crack.node_count()),
+                            NodeId(c[1].index() + crack.node_count()),
+                            NodeId(c[2].index() + crack.node_count())});
+  for (const TriMesh& sheet : {crack, both})
+    for (const double merge : {0.0, 0.1}) {
+      const CutComplex cut = corefine(body, sheet, {merge});
+      check(cut, body, sheet);
+      EXPECT_TRUE(cut.mouth.empty());
+      EXPECT_EQ(cut.surface, body.corners);
+      EXPECT_EQ(cut.sheet.size(), crack.triangle_count());
+      EXPECT_EQ(cut.positions.size(), body.node_count() + crack.node_count());
+    }
+  const CutComplex outside =
+      corefine(body, mapped(crack, [](const Vec3& x) { return Vec3(x + Vec3(3, 0, 0)); }));
+  EXPECT_TRUE(outside.sheet.empty());
+  EXPECT_EQ(outside.surface, body.corners);
+}
+
+TEST(Corefine, GrowingCrackLeavesTheRestAlone) {
+  const TriMesh body = icosphere(3);
+  const auto at = [](double u, double v) { return Vec3(u, v, 0.1 + 0.2 * std::sin(3 * u)); };
+  // rows along v, so that growth in v appends nodes and triangles
+  const TriMesh before = sheet(-1.1, 1.1, -1.1, -0.1, 10, 5, at);
+  TriMesh after = sheet(-1.1, 1.1, -1.1, 0.1, 10, 6, at);
+  std::copy(before.positions.begin(), before.positions.end(), after.positions.begin());  // the same bits
+  for (const double merge : {0.0, 0.1}) {
+    const CutComplex a = corefine(body, before, {merge}), b = corefine(body, after, {merge});
+    std::set<std::array<double, 9>> pieces;
+    const auto key = [](const CutComplex& cut, const std::array<NodeId, 3>& c) {
+      std::array<double, 9> k;
+      for (int i = 0; i < 9; ++i)
+        k[i] = cut.positions[c[i / 3]][i % 3];
+      return k;
+    };
+    for (const auto* layer : {&b.surface, &b.sheet})
+      for (const auto& c : *layer)
+        pieces.insert(key(b, c));
+    std::size_t compared = 0;
+    for (const auto* layer : {&a.surface, &a.sheet})
+      for (const auto& c : *layer) {
+        if (a.positions[c[0]].y() > -0.5 || a.positions[c[1]].y() > -0.5 || a.positions[c[2]].y() > -0.5)
+          continue;
+        ++compared;
+        EXPECT_TRUE(pieces.contains(key(a, c)));
+      }
+    EXPECT_GT(compared, 100u);
+  }
 }
 
 struct Scene {
@@ -269,7 +356,7 @@ void turn_round(IdVector<TriId, std::array<NodeId, 3>>& pieces) {
 
 TEST(Corefine, ReflectedAndScaledInputGivesTheSameBits) {
   std::mt19937 random(6);
-  for (int seed = 0; seed < 80; ++seed)
+  for (int seed = 0; seed < 40; ++seed)
     for (const double merge : {0.0, 0.1}) {
       const Scene s = scene(seed, random);
       CutComplex cut = corefine(s.body, s.sheet, {merge});
@@ -296,7 +383,7 @@ TEST(Corefine, ReflectedAndScaledInputGivesTheSameBits) {
 
 TEST(Corefine, AlmostSpecialPositionsStayValid) {
   std::mt19937 random(7);
-  for (int seed = 0; seed < 200; ++seed)
+  for (int seed = 0; seed < 120; ++seed)
     for (const double merge : {0.0, 0.1}) {
       const Scene s = scene(seed, random);
       const Mat3 r = random_rotation(random);
@@ -317,7 +404,6 @@ TEST(Corefine, TwentyThousandByHundredThousandTriangles) {
   const CutComplex cut = corefine(body, wavy);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("milliseconds", static_cast<int>(1000 * seconds));
-  printf("%zu x %zu triangles: %g s\n", body.triangle_count(), wavy.triangle_count(), seconds);
   check(cut, body, wavy);
 }
 

@@ -460,10 +460,14 @@ class Corefinement {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       SurfaceSupport& support = supports_[final_id[node(k).index()]];
       support.kind = keys_[k].kind == Key::surface_edge ? edge : face;
-      if (support.kind == edge)
+      if (support.kind == edge) {
         support.edge = keys_[k].edge;
-      else
-        support.face = keys_[k].triangle;
+        continue;
+      }
+      support.face = keys_[k].triangle;
+      const Points T = surface_triangle(support.face);
+      const NodeId a = keys_[k].edge.a;
+      support.outside = orientation(*T[0], *T[1], *T[2], sheet_points_[a.index()]) > 0 ? a : keys_[k].edge.b;
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace conchoid {
 namespace {
@@ -95,6 +96,7 @@ class Merger {
 
   void run() {
     measure_sizes();
+    claim_outer_nodes();
     constexpr int most_rounds = 50;
     for (int round = 0; round < most_rounds; ++round) {
       const bool flipped = flip_edges();
@@ -133,6 +135,22 @@ class Merger {
       const auto [low, high] = std::minmax(smallest[0][NodeId(i)], smallest[1][NodeId(i)]);
       size_[NodeId(i)] = high == infinity ? low : std::min(std::sqrt(low * high), most * low);
     }
+  }
+
+  /// A sheet node close outside the surface (or exactly on it, which counts as outside) lives on in the mouth
+  /// node next to it.
+  void claim_outer_nodes() {
+    std::map<NodeId, std::pair<double, NodeId>> nearest;
+    for (std::size_t i = cut_.surface_node_count; i < cut_.positions.size(); ++i) {
+      const NodeId n(i), outer = supports_[n].outside;
+      if (!outer.valid()) continue;
+      const double distance = (at(n) - sheet_.positions[outer]).norm();
+      if (!(static_cast<float>(distance / size_[n]) < merge_)) continue;
+      const auto [found, fresh] = nearest.try_emplace(outer, distance, n);
+      if (!fresh && distance < found->second.first) found->second = {distance, n};
+    }
+    for (const auto& [outer, best] : nearest)
+      cut_.sheet_node[best.second] = outer;
   }
 
   // ---- candidates
