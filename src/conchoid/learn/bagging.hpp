@@ -32,9 +32,9 @@ struct BaggingTarget {
 /// Trees of a regression forest, each fitted by least squares to its own bootstrap sample (Breiman 1996): a
 /// node's value is the mean of its samples counted with multiplicity, a split is the one that lowers the sum
 /// of squared deviations most. Fitted by XGBoost: gradient −count·y and hessian count without regularisation
-/// make a boosting round from zero exactly that. Trees are
-/// independent jobs of one thread each: they have the same bits for every number of threads, and a busy
-/// machine does not make threads wait for one another.
+/// make a boosting round from zero exactly that.
+/// Trees are independent jobs of one thread each: they have the same bits for every number of threads, and a
+/// busy machine does not make threads wait for one another.
 /// @param rows      features, row after row, finite
 /// @param progress  called after every tree, never twice at a time; may throw to stop
 /// @param predictions  if given: XGBoost's own mean prediction for every row and target, the slow oracle of

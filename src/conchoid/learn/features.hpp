@@ -9,27 +9,31 @@
 
 namespace conchoid {
 
-/// What a forest looks at and what it predicts. Notation: K at frame n−1 [Pa√m], r⁻ and r⁺ the correlation
-/// distances at frames n−1 and n [m], Δu the opening at frame n [m], r̄ the resolution [m].
+// clang-format off
+/// What a forest looks at and what it predicts. K at frame n−1 [Pa√m], r⁻ and r⁺ the correlation distances at
+/// frames n−1 and n [m], Δu the opening at frame n [m], r̄ the resolution [m], κ the front's curvature [1/m].
 ///
-/// | set | features | label |
-/// |---|---|---|
-/// | paper-3 | K_I/√r̄, K_II/√r̄, K_III/√r̄ [Pa] | Δu/r̄ |
-/// | paper-4 | the same and K_c [Pa√m] | Δu/r̄ |
-/// | paper-5 | the same, K_c and the travelled distance [m] | Δu/r̄ |
-/// | dimensionless | K_I/S, |K_II|/S, |K_III|/S, K_c/S, r⁻/r̄, r⁺/r̄, r⁺/r⁻, travelled/r̄, ν | (K⁺ − K)/S, signs
-/// as below | | dimensionless-context | the same, κ r̄, r̄/(r̄ + surface distance), √r̄ traction/S | the same |
+/// | set                   | features                                                     | label        |
+/// |-----------------------|--------------------------------------------------------------|--------------|
+/// | paper-3               | K_I/√r̄, K_II/√r̄, K_III/√r̄ [Pa]                               | Δu/r̄         |
+/// | paper-4               | the same and K_c [Pa√m]                                      | Δu/r̄         |
+/// | paper-5               | the same, K_c and the travelled distance [m]                 | Δu/r̄         |
+/// | dimensionless         | K_I/S, abs K_II/S, abs K_III/S, K_c/S, r⁻/r̄, r⁺/r̄, r⁺/r⁻,    | (K⁺ − K)/S,  |
+/// |                       | travelled/r̄, ν                                               | signs below  |
+/// | dimensionless-context | the same, κ r̄, r̄/(r̄ + surface distance), √r̄ traction/S       | the same     |
 ///
-/// S² = K_I² + K_II² + K_III²/(1−ν) + K_c² > 0, κ the front's curvature, and K⁺ the intensity that the
-/// opening Δu at distance r⁺ stands for (displacement correlation): K⁺ = K says "K stays as it is", so the
-/// dimensionless forest learns the correction to the steady prediction and a load never seen before is met by
-/// a relative correction of the right order. A physically scaled copy (size × s, E × k, stress × k, K_c ×
-/// k√s, r̄ × s) has the same dimensionless features and labels. E enters nowhere else: elasticity is linear,
-/// so K and K_c already tell the load, and K_c/(E√r̄) would only tie a forest to one material. Signs:
-/// reversing the crack normal turns (K_II, Δu_II) to their negatives and nothing else, mirroring the body
-/// across the plane of e1 and e2 turns (K_III, Δu_III). The dimensionless sets look at |K_II| and |K_III| and
-/// give labels (and tractions) II and III relative to the signs of K_II and K_III, so both symmetries hold
-/// exactly.
+/// S² = K_I² + K_II² + K_III²/(1−ν) + K_c² > 0, and K⁺ is the intensity that the opening Δu at distance r⁺ stands
+/// for (displacement correlation). K⁺ = K says "K stays as it is": the dimensionless forest learns the correction
+/// to the steady prediction, so a load never seen before is still met by a correction of the right order.
+///
+/// Scale: a physically scaled copy (size × s, E × k, stress × k, K_c × k√s, r̄ × s) has the same dimensionless
+/// features and labels. E enters nowhere else: elasticity is linear, so K and K_c already tell the load, and
+/// K_c/(E√r̄) would only tie a forest to one material.
+///
+/// Signs: reversing the crack normal negates (K_II, Δu_II) and nothing else; mirroring the body across the plane
+/// of e1 and e2 negates (K_III, Δu_III). The dimensionless sets look at the absolute values and give labels and
+/// tractions II and III relative to the signs of K_II and K_III, so both symmetries hold exactly.
+// clang-format on
 enum class FeatureSet { paper_3, paper_4, paper_5, dimensionless, dimensionless_context };
 
 /// All sets in the order of the enumeration.

@@ -11,7 +11,7 @@
 namespace conchoid {
 namespace {
 
-constexpr std::size_t block_rows = 16;  ///< rows that walk a tree side by side, to hide the latency of memory
+constexpr std::size_t max_features = 64;
 constexpr std::size_t max_nodes = std::size_t{1} << 26;
 constexpr float endless = std::numeric_limits<float>::infinity();
 
@@ -30,7 +30,8 @@ void check_arrays(const RegressionTree& tree) {
 }  // namespace
 
 TreeEnsemble::TreeEnsemble(const std::vector<RegressionTree>& trees, int features) : features_(features) {
-  if (features < 1 || features > 63) refuse("the number of features must lie between 1 and 63");
+  if (features < 1 || features > static_cast<int>(max_features))
+    refuse("the number of features must lie between 1 and 64");
   for (const RegressionTree& tree : trees) {
     check_arrays(tree);
     if (nodes_.size() + tree.size() > max_nodes) refuse("the forest has too many nodes");
@@ -70,36 +71,47 @@ int TreeEnsemble::depth() const {
   return depths_.empty() ? 0 : *std::max_element(depths_.begin(), depths_.end());
 }
 
-void TreeEnsemble::evaluate(std::span<const float> rows, std::span<Answer> answers) const {
+template <std::size_t Lanes>
+void TreeEnsemble::evaluate_block(const float* rows, Answer* answers) const {
   const auto columns = static_cast<std::size_t>(features_);
+  std::array<float, Lanes * max_features> x;
+  for (std::size_t r = 0; r < Lanes; ++r)
+    std::copy_n(rows + r * columns, columns, x.data() + r * max_features);
+  std::array<double, Lanes> sum{}, square{};
   const Node* const nodes = nodes_.data();
-  for (std::size_t begin = 0; begin < answers.size(); begin += block_rows) {
-    const std::size_t count = std::min(block_rows, answers.size() - begin);
-    std::array<const float*, block_rows> x;
-    for (std::size_t r = 0; r < block_rows; ++r)
-      x[r] = rows.data() + (begin + std::min(r, count - 1)) * columns;
-    std::array<double, block_rows> sum{}, square{};
-    for (std::size_t t = 0; t < roots_.size(); ++t) {
-      std::array<std::uint32_t, block_rows> at;
-      at.fill(roots_[t]);
-      for (int level = 0; level < depths_[t]; ++level)
-        for (std::size_t r = 0; r < block_rows; ++r) {
-          const Node node = nodes[at[r]];
-          at[r] = node.left + static_cast<std::uint32_t>(!(x[r][node.feature] < node.threshold));
-        }
-      for (std::size_t r = 0; r < block_rows; ++r) {
-        const double value = values_[at[r]];
-        sum[r] += value;
-        square[r] += value * value;
+  for (std::size_t t = 0; t < roots_.size(); ++t) {
+    std::array<std::uint32_t, Lanes> at;
+    at.fill(roots_[t]);
+    for (int level = 0; level < depths_[t]; ++level)
+      for (std::size_t r = 0; r < Lanes; ++r) {
+        const Node node = nodes[at[r]];
+        at[r] =
+            node.left + static_cast<std::uint32_t>(!(x[r * max_features + node.feature] < node.threshold));
       }
-    }
-    const auto n = static_cast<double>(roots_.size());
-    for (std::size_t r = 0; r < count; ++r) {
-      const double mean = sum[r] / n;
-      const double variance = roots_.size() > 1 ? (square[r] - sum[r] * mean) / (n - 1) : 0.0;
-      answers[begin + r] = {mean, std::sqrt(std::max(0.0, variance))};
+    for (std::size_t r = 0; r < Lanes; ++r) {
+      const double value = values_[at[r]];
+      sum[r] += value;
+      square[r] += value * value;
     }
   }
+  const auto n = static_cast<double>(roots_.size());
+  for (std::size_t r = 0; r < Lanes; ++r) {
+    const double mean = sum[r] / n;
+    const double variance = roots_.size() > 1 ? (square[r] - sum[r] * mean) / (n - 1) : 0.0;
+    answers[r] = {mean, std::sqrt(std::max(0.0, variance))};
+  }
+}
+
+void TreeEnsemble::evaluate(std::span<const float> rows, std::span<Answer> answers) const {
+  const auto columns = static_cast<std::size_t>(features_);
+  // Rows walk a tree side by side, to hide the latency of memory.
+  std::size_t i = 0;
+  for (; i + 16 <= answers.size(); i += 16)
+    evaluate_block<16>(rows.data() + i * columns, answers.data() + i);
+  for (; i + 4 <= answers.size(); i += 4)
+    evaluate_block<4>(rows.data() + i * columns, answers.data() + i);
+  for (; i < answers.size(); ++i)
+    evaluate_block<1>(rows.data() + i * columns, answers.data() + i);
 }
 
 std::vector<RegressionTree> TreeEnsemble::trees() const {

@@ -47,6 +47,9 @@ class TreeEnsemble {
     float threshold;
     std::uint32_t feature : 6, left : 26;
   };
+  template <std::size_t Lanes>
+  void evaluate_block(const float* rows, Answer* answers) const;
+
   int features_ = 0;
   std::vector<Node> nodes_;
   std::vector<float> values_;
