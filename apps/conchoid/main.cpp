@@ -1,1 +1,70 @@
-int main() { return 0; }
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "command.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/core/parallel.hpp"
+
+namespace conchoid {
+namespace {
+
+enum ExitStatus { kDone = 0, kFailed = 1, kBadInput = 2 };
+
+int carry_out(const Invocation& invocation) {
+  try {
+    set_quiet(invocation.common.quiet);
+    set_thread_count(invocation.common.threads);
+    catch_interrupts();
+    invocation.action();
+    return kDone;
+  } catch (const InputError& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return kBadInput;
+  } catch (const Interrupted& stop) {
+    std::cerr << stop.what() << '\n';
+  } catch (const ComputationError& error) {
+    std::cerr << "failed: " << error.what() << '\n';
+  } catch (const std::bad_alloc&) {
+    std::cerr << "failed: not enough memory; use fewer triangles (body.remesh, resolution.crack) or a larger "
+                 "machine\n";
+  } catch (const std::exception& error) {
+    std::cerr << "failed: " << error.what()
+              << "; this is a mistake in conchoid, please report it with the scene\n";
+  }
+  return kFailed;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program("Brittle fracture by boundary elements and by prediction. Everything is SI.", "conchoid");
+  program.set_version_flag("--version", CONCHOID_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit status: 0 done, 1 the computation failed, 2 bad usage or bad input.\n"
+      "conchoid COMMAND --help tells more; conchoid help-scene lists the keys of a scene.");
+  program.get_formatter()->column_width(34);
+  Invocation invocation;
+  add_run(program, invocation);
+  add_mesh(program, invocation);
+  add_compare(program, invocation);
+  add_database(program, invocation);
+  add_forest(program, invocation);
+  add_help_scene(program, invocation);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = program.exit(error, std::cout, std::cerr);
+    return status == 0 ? kDone : kBadInput;
+  }
+  return carry_out(invocation);
+}
+
+}  // namespace
+}  // namespace conchoid
+
+int main(int argc, char** argv) {
+  return conchoid::run_program(argc, argv);
+}

@@ -174,6 +174,7 @@ void read_ellipse(const TomlTable& table, CrackSpec& crack) {
   table.require("axes", axes);
   crack.axes = {axes[0], axes[1]};
   crack.normal = read_direction(table, "normal");
+  if (!table.has("direction")) return;
   crack.direction = read_direction(table, "direction");
   if (cross(*crack.direction, crack.normal).norm() <= 1e-6 * crack.direction->norm() * crack.normal.norm())
     table.fail("direction", "crack.direction is along crack.normal; it must lie in the crack's plane");

@@ -163,7 +163,7 @@ const std::vector<Setting>& settings() {
       {"resolution", "crack", number, "m", "",
        "r̄, target edge of crack triangles; without it a tenth of the body's size (cube root of the volume) "
        "or, in "
-       "the infinite body, the mean front edge of the cracks",
+       "the infinite body, an eighth of the largest crack",
        above(0)},
       {"resolution", "surface", number, "m", "",
        "spacing of the markers along the fine front, and with it the detail of the output surface; without "
@@ -196,7 +196,7 @@ const std::vector<Setting>& settings() {
        numbers,
        "",
        "",
-       "ellipse: direction of a; disc: where the mesh begins (optional)",
+       "ellipse: direction of a; disc: where the mesh begins; optional",
        {},
        3},
       {"crack", "edges", vectors, "m", "", "rectangle: its two full edge vectors", {}, 3},

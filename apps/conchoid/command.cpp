@@ -1,0 +1,31 @@
+#include "command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "conchoid/core/error.hpp"
+
+namespace conchoid {
+
+CLI::App* add_command(CLI::App& parent, Invocation& invocation, const std::string& name,
+                      const std::string& help, std::function<void()> action) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  CommonOptions& common = invocation.common;
+  command
+      ->add_option("--threads", common.threads,
+                   "worker threads, 0: all of the machine; never changes a result")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_flag("--quiet", common.quiet,
+                    "no messages and no progress on stderr (warnings and errors stay)");
+  command->add_flag("--json", common.json, "one JSON object on stdout, nothing else there");
+  command->callback([&invocation, action = std::move(action)] { invocation.action = action; });
+  return command;
+}
+
+void print(const std::string& text) {
+  if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0)
+    throw ComputationError("stdout: the result could not be written; is the disk full or the pipe closed?");
+}
+
+}  // namespace conchoid

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace conchoid {
+
+/// What every sub-command offers.
+struct CommonOptions {
+  int threads = 0;
+  bool quiet = false;
+  bool json = false;
+};
+
+/// What the command line asked for: options and the work to do. Parsing fills it in, main() carries it out.
+struct Invocation {
+  CommonOptions common;
+  std::function<void()> action;
+};
+
+/// Adds a sub-command with --threads, --quiet and --json to `parent`; `action` runs when it is chosen.
+CLI::App* add_command(CLI::App& parent, Invocation& invocation, const std::string& name,
+                      const std::string& help, std::function<void()> action);
+
+/// Writes text and a line end to stdout. Throws ComputationError when that fails (closed pipe, full disk).
+void print(const std::string& text);
+
+// One per file named after it.
+void add_compare(CLI::App& program, Invocation& invocation);
+void add_database(CLI::App& program, Invocation& invocation);
+void add_forest(CLI::App& program, Invocation& invocation);
+void add_help_scene(CLI::App& program, Invocation& invocation);
+void add_mesh(CLI::App& program, Invocation& invocation);
+void add_run(CLI::App& program, Invocation& invocation);
+
+}  // namespace conchoid

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/learn/summary.hpp"
+
+namespace conchoid {
+namespace {
+
+struct DatabaseOptions {
+  std::vector<std::string> files;
+  std::string out;
+};
+
+/// One file as it is, several merged in memory.
+Database read_files(const DatabaseOptions& options) {
+  if (options.files.size() == 1) return read_database(options.files.front());
+  return merge_databases({options.files.begin(), options.files.end()});
+}
+
+std::string info_text(const DatabaseInfo& info) {
+  std::string text = fmt::format(
+      "models      {}\nruns        {} of {}{}\nexcluded    {}\nsamples     {}, of which {} to be learned "
+      "from\n"
+      "resolution  {:g} m\nmaterial    E {:g} Pa, ν {:g}, K_c {:g} Pa√m\nframes      {:.1f} per run\nstops   "
+      "   ",
+      fmt::join(info.header.models, ", "), info.runs, info.header.planned_here(),
+      info.complete ? "" : " (incomplete: go on with database generate --resume)", info.excluded_runs,
+      info.samples, info.training_samples, info.header.resolution, info.header.material.youngs_modulus,
+      info.header.material.poisson_ratio, info.header.material.toughness, info.mean_frames);
+  for (const auto& [stop, count] : info.stops)
+    text += fmt::format(" {} {}", count, stop);
+  for (const auto& [reason, count] : info.exclusions)
+    text += fmt::format("\nexcluded    {} × {}", count, reason);
+  return text;
+}
+
+std::string statistics_text(const DatabaseStatistics& statistics) {
+  std::string text = fmt::format("{} samples\n          median          mean       coefficient of variation",
+                                 statistics.samples);
+  constexpr std::array kNames = {"K_I  ", "K_II ", "K_III"};
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    const Statistics& s = statistics.K[mode];
+    text += fmt::format("\n{}  {:13.4e} {:13.4e} {:13.4g}   Pa√m", kNames[mode], s.median, s.mean,
+                        s.coefficient_of_variation);
+  }
+  return text;
+}
+
+void merge_and_print(const DatabaseOptions& options, const CommonOptions& common) {
+  const Database merged = merge_databases({options.files.begin(), options.files.end()});
+  write_database(options.out, merged);
+  const DatabaseInfo info = database_info(merged);
+  print(common.json ? json_text(info) : info_text(info));
+}
+
+}  // namespace
+
+void add_database(CLI::App& program, Invocation& invocation) {
+  CLI::App* group = program.add_subcommand("database", "Make and look at databases of samples");
+  group->require_subcommand(1);
+  const auto options = std::make_shared<DatabaseOptions>();
+  const auto add_files = [options](CLI::App* command, int least) {
+    command->add_option("FILE", options->files, "database file (HDF5)")->required()->expected(least, 100000);
+  };
+
+  add_files(add_command(*group, invocation, "info", "Runs, samples, material, exclusions",
+                        [options, &invocation] {
+                          const DatabaseInfo info = database_info(read_files(*options));
+                          print(invocation.common.json ? json_text(info) : info_text(info));
+                        }),
+            1);
+  add_files(add_command(*group, invocation, "stats", "Median, mean and variation of K_I, K_II, K_III",
+                        [options, &invocation] {
+                          const DatabaseStatistics s = database_statistics(read_files(*options));
+                          print(invocation.common.json ? json_text(s) : statistics_text(s));
+                        }),
+            1);
+  CLI::App* merge = add_command(*group, invocation, "merge", "Join the shards of one specification",
+                                [options, &invocation] { merge_and_print(*options, invocation.common); });
+  add_files(merge, 2);
+  merge->add_option("--out", options->out, "database file to write")->required();
+}
+
+}  // namespace conchoid

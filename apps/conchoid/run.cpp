@@ -1,0 +1,99 @@
+#include "conchoid/sim/run.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/learn/forest.hpp"
+#include "conchoid/sim/settings.hpp"
+
+namespace conchoid {
+namespace {
+
+struct RunCommand {
+  std::string scene, method = "bem", database, out;
+  int frames = 0;  ///< 0: the scene's
+  bool resume = false;
+};
+
+std::string report_text(const RunDocument& d) {
+  std::string text = fmt::format(
+      "{} after {} frames, {} → {} triangles\n"
+      "{:.3f} s: opening {:.3f}, fracture {:.3f}, other {:.3f}; opening per frame {:.4f}",
+      d.stop, d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
+      d.fracture_seconds, d.other_seconds, d.opening_seconds_per_frame);
+  for (std::size_t i = 0; i < d.fragments.size(); ++i)
+    text += fmt::format("\nfragment {}: {:.6g} m³, {:.6g} kg, fracture area {:.6g} m², {}", i,
+                        d.fragments[i].volume, d.fragments[i].mass, d.fragments[i].fracture_area,
+                        d.fragments[i].watertight ? "watertight" : "not watertight");
+  return text + "\nhash " + d.hash;
+}
+
+/// The finished run of the same scene that the folder holds, if there is one. A forest is not recorded well
+/// enough to know that it is the same: such runs are made again.
+std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& scene,
+                                        const RunOptions& options) {
+  const std::filesystem::path file = std::filesystem::path(command.out) / "run.json";
+  if (!command.resume || !std::filesystem::exists(file) || options.method == Method::forest)
+    return std::nullopt;
+  RunDocument document = read_run_json(file);
+  if (document.scene_text != scene.text || document.method != name(options.method))
+    throw InputError(file.string() +
+                     ": belongs to another scene or method; name another folder, or leave out --resume");
+  const std::int64_t frames = options.frames.value_or(scene.run.frames);
+  for (const RunSetting& s : document.settings)
+    if (s.name == "run.frames" && s.value != RunSetting{s.name, frames}.value) return std::nullopt;
+  if (document.stop == "interrupted") return std::nullopt;
+  return document;
+}
+
+void run_and_print(const RunCommand& command, const CommonOptions& common) {
+  RunOptions options;
+  options.method = method_from_name(command.method);
+  if (command.frames > 0) options.frames = command.frames;
+  if (!command.out.empty()) options.folder = command.out;
+  if ((options.method == Method::forest) == command.database.empty())
+    throw InputError(command.database.empty()
+                         ? "--method forest needs a forest: add --database FOREST"
+                         : "--database goes with --method forest; add one or remove the other");
+  if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
+  const Scene scene = read_scene(command.scene);
+  std::optional<RegressionForest> forest;
+  if (!command.database.empty()) {
+    forest = RegressionForest::load(command.database);
+    options.forest = &*forest;
+  }
+  std::optional<RunDocument> document = finished_run(command, scene, options);
+  if (!document) document = run_scene(scene, options).document;
+  for (const std::string& text : document->warnings)
+    warning(text);
+  print(common.json ? run_json(*document, RunJson::report) : report_text(*document));
+  if (document->stop == "interrupted")
+    throw Interrupted("stopped on request; what was computed so far has been kept");
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, Invocation& invocation) {
+  const auto options = std::make_shared<RunCommand>();
+  CLI::App* command =
+      add_command(program, invocation, "run", "Fracture a body: solve or predict, grow, cut into pieces",
+                  [options, &invocation] { run_and_print(*options, invocation.common); });
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("--method", options->method, "where the crack opening comes from after frame 1")
+      ->check(CLI::IsMember({"bem", "forest", "steady"}))
+      ->capture_default_str();
+  command->add_option("--database", options->database, "forest file, for --method forest");
+  command->add_option("--frames", options->frames, "most frames, in place of the scene's")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--out", options->out, "run folder to write; without it nothing is written");
+  command->add_flag("--resume", options->resume,
+                    "keep a finished run of the same scene in the folder; make an unfinished one again");
+  command->footer(settings_text(false));
+}
+
+}  // namespace conchoid

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs what building, testing and the demo need on Debian 12. Asks nothing, changes nothing that is there already.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build
+  libeigen3-dev libopenblas-dev liblapack-dev libtbb-dev libfmt-dev libxxhash-dev
+  libhdf5-dev libxgboost-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
+  libembree-dev libpng-dev
+  libgtest-dev libbenchmark-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "install-dependencies: everything is installed"
+  exit 0
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "install-dependencies: run this as root, or install sudo" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "install-dependencies: installing ${missing[*]}"
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
