@@ -35,6 +35,9 @@ void add_database(CLI::App& program, Invocation& invocation);
 void add_forest(CLI::App& program, Invocation& invocation);
 void add_help_scene(CLI::App& program, Invocation& invocation);
 void add_mesh(CLI::App& program, Invocation& invocation);
+void add_picture(CLI::App& program, Invocation& invocation);
 void add_run(CLI::App& program, Invocation& invocation);
+void add_sif(CLI::App& program, Invocation& invocation);
+void add_stress(CLI::App& program, Invocation& invocation);
 
 }  // namespace conchoid

@@ -1,19 +1,33 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/summary.hpp"
+#include "conchoid/sim/generate.hpp"
+#include "conchoid/sim/settings.hpp"
 
 namespace conchoid {
 namespace {
 
 struct DatabaseOptions {
   std::vector<std::string> files;
-  std::string out;
+  std::string out, spec, shard = "1/1";
+  int runs = 0;  ///< 0: the specification's
+  bool resume = false;
 };
+
+/// "2/5": shard 2 of 5.
+std::pair<int, int> parse_shard(const std::string& text) {
+  int shard = 0, shards = 0;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &shard, &shards, &end) != 2 || shard < 1 || shard > shards)
+    throw InputError(fmt::format("--shard {}: must be I/N with 1 ≤ I ≤ N, for instance 2/5", text));
+  return {shard, shards};
+}
 
 /// One file as it is, several merged in memory.
 Database read_files(const DatabaseOptions& options) {
@@ -57,12 +71,41 @@ void merge_and_print(const DatabaseOptions& options, const CommonOptions& common
   print(common.json ? json_text(info) : info_text(info));
 }
 
+void generate_and_print(const DatabaseOptions& options, const CommonOptions& common) {
+  const auto [shard, shards] = parse_shard(options.shard);
+  DatabaseSpec spec = read_database_spec(options.spec);
+  if (options.runs > 0) spec.runs = options.runs;
+  generate_database(spec, {.out = options.out, .shard = shard, .shards = shards, .resume = options.resume});
+  const DatabaseInfo info = database_info(read_database(options.out));
+  print(common.json ? json_text(info) : info_text(info));
+}
+
+void add_generate(CLI::App& group, Invocation& invocation, const std::shared_ptr<DatabaseOptions>& options) {
+  CLI::App* command = add_command(
+      group, invocation, "generate", "Run many scenes under random loads, keep what their fronts did",
+      [options, &invocation] { generate_and_print(*options, invocation.common); });
+  command->add_option("SPEC", options->spec, "specification: a scene with a table [database] (TOML)")
+      ->required();
+  command
+      ->add_option("--out", options->out, "database file to write (HDF5); finished runs wait in FILE.parts")
+      ->required();
+  command->add_option("--runs", options->runs, "number of runs, in place of the specification's")
+      ->check(CLI::Range(1, 10000000));
+  command
+      ->add_option("--shard", options->shard,
+                   "I/N: make only every N-th run, starting with the I-th; merge the files later")
+      ->capture_default_str();
+  command->add_flag("--resume", options->resume, "go on with what FILE and FILE.parts hold");
+  command->footer(settings_text(true));
+}
+
 }  // namespace
 
 void add_database(CLI::App& program, Invocation& invocation) {
   CLI::App* group = program.add_subcommand("database", "Make and look at databases of samples");
   group->require_subcommand(1);
   const auto options = std::make_shared<DatabaseOptions>();
+  add_generate(*group, invocation, options);
   const auto add_files = [options](CLI::App* command, int least) {
     command->add_option("FILE", options->files, "database file (HDF5)")->required()->expected(least, 100000);
   };

@@ -48,8 +48,11 @@ int run_program(int argc, char** argv) {
   program.get_formatter()->column_width(34);
   Invocation invocation;
   add_run(program, invocation);
+  add_sif(program, invocation);
+  add_stress(program, invocation);
   add_mesh(program, invocation);
   add_compare(program, invocation);
+  add_picture(program, invocation);
   add_database(program, invocation);
   add_forest(program, invocation);
   add_help_scene(program, invocation);
