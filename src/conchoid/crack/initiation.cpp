@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace conchoid {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kEqual = 1e-3;          ///< relative difference in severity that does not count
 constexpr double kPerpendicular = 1e-6;  ///< cosine below which a direction does not fix a sign
+constexpr double kEquallyRemote = 1e-6;   ///< relative difference in remoteness that does not count
 constexpr int kRings = 2;
 
 /// ±v on the positive side of the first reference that is not perpendicular to it.
@@ -46,15 +48,21 @@ bool closer_than(double distance, const Vec3& x, const std::vector<Vec3>& nodes)
                      [&](const Vec3& node) { return (node - x).squaredNorm() < distance * distance; });
 }
 
-/// Lowest triangle id among the candidates within 0.1 % of the most severe; end if there is none.
+/// Among the candidates within 0.1 % of the most severe the least remote, of these the one with the lowest triangle id; end if
+/// there is none.
 auto next_candidate(const std::vector<InitiationCandidate>& left) {
   const auto severity = [](const InitiationCandidate& c) { return c.principal_stress / c.strength; };
   double largest = 0;
   for (const auto& c : left)
     largest = std::max(largest, severity(c));
+  const auto is_equal = [&](const InitiationCandidate& c) { return severity(c) >= (1 - kEqual) * largest; };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& c : left)
+    if (is_equal(c)) nearest = std::min(nearest, c.remoteness);
   auto best = left.end();
   for (auto it = left.begin(); it != left.end(); ++it)
-    if (severity(*it) >= (1 - kEqual) * largest && (best == left.end() || it->triangle < best->triangle))
+    if (is_equal(*it) && it->remoteness <= (1 + kEquallyRemote) * nearest &&
+        (best == left.end() || it->triangle < best->triangle))
       best = it;
   return best;
 }

@@ -14,9 +14,11 @@ struct InitiationCandidate {
   Vec3 direction;           ///< unit, of σ₁; its sign does not matter
   Vec3 inward_normal;       ///< unit, into the body
   double strength;          ///< S_c [Pa] there
-  TriId triangle;           ///< decides between equals
+  TriId triangle;           ///< decides between equals, the lowest first
   std::array<Vec3, 3>
       corners;  ///< of the triangle, in ascending order of their node ids: fixes signs (see CrackSite)
+  double remoteness = 0;  ///< [m] of two equally severe candidates the one with less of it goes first (differences below 1e-6 do
+                          ///< not count), e.g. the distance from the body's centre
 };
 
 /// A new crack: a disc around a point of the surface, normal to σ₁.

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/crack/front.hpp"
+#include "conchoid/crack/sheet.hpp"
+#include "conchoid/mesh/corefine.hpp"
+
+namespace conchoid {
+
+/// A coarse front node inside the body, as SIFs are wanted there.
+struct FrontPoint {
+  NodeId node;          ///< of the sheet
+  NodeId correlation;   ///< of the sheet: the node right behind it; may be invalid
+  FrontFrame frame;     ///< of the sheet's front at the node
+  double distance = 0;  ///< r of the correlation node from the front [m], 0 without one
+  int front = 0;        ///< number of its front in the sheet
+};
+
+/// The cracks of a body as they stand: the sheet as it grows, and what of it lies inside.
+struct CrackState {
+  CrackSheet sheet;
+  CutComplex cut;                        ///< of the boundary element mesh
+  TriMesh trimmed;                       ///< the sheet's part inside, nodes of `cut`
+  std::vector<Front> fronts;             ///< of `trimmed`
+  IdVector<NodeId, NodeId> node_in_cut;  ///< per sheet node: its node in `cut`; invalid outside and on the surface
+  std::vector<FrontPoint> points;        ///< all coarse front nodes inside
+};
+
+/// Trims the sheet by the surface (empty: infinite body), marks its front nodes active or outside, lists the points inside.
+void update_crack(CrackState& state, const TriMesh& surface);
+
+/// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last ligaments at corners,
+/// narrower than a triangle. They have no node inside to read SIFs at, and run through.
+std::vector<FrontPoint> ligament_points(const CrackState& state);
+
+/// Share of an edge's length within which mouth nodes are merged for the boundary elements.
+inline constexpr double kMouthMerge = 0.1;
+
+}  // namespace conchoid

@@ -1,0 +1,250 @@
+#include "conchoid/sim/frame_loop.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/bem/rigid_body.hpp"
+#include "conchoid/bem/surface_stress.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/core/progress.hpp"
+#include "conchoid/crack/criterion.hpp"
+#include "conchoid/crack/initiation.hpp"
+#include "conchoid/surface/separation.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double kAlongSurface = 0.9;     // cosine between σ1 and the surface normal above which no crack starts
+constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
+
+CrackSheet initial_sheet(const BodySetup& setup) {
+  CrackSheet sheet;
+  for (const TriMesh& crack : setup.cracks)
+    append_part(sheet, crack);
+  return sheet;
+}
+
+std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptions& options, BemOpening& bem, double r) {
+  const SifSettings sif = sif_settings(scene.run);
+  if (options.method == Method::steady) return make_steady_opening(bem, scene.material, r, sif);
+  if (options.method == Method::forest) return make_forest_opening(bem, *options.forest, scene.material, r, sif);
+  return nullptr;
+}
+
+// Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
+std::vector<InitiationCandidate> find_candidates(const BodySetup& setup, const CrackState& crack, const CrackedBody& body,
+                                                 double strength) {
+  std::vector<char> cut(setup.surface.triangle_count(), 0);
+  for (std::size_t t = 0, n = 0; t < crack.cut.surface.size(); ++t) {
+    const std::size_t parent = crack.cut.surface_parent[t].index();
+    n = t > 0 && crack.cut.surface_parent[t - 1].index() == parent ? n + 1 : 0;
+    if (n > 0) cut[parent] = 1;
+  }
+  const Vec3 center = bounding_box(setup.surface).center();
+  std::vector<InitiationCandidate> out;
+  const std::vector<Mat3> stress = body.surface_stress();
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    if (cut[t] || setup.data.kind[t] == BoundaryKind::displacement) continue;
+    const PrincipalStress p = principal_stress(stress[t]);
+    const Vec3 n = unit_normal(setup.surface, TriId(t));
+    if (p.value[0] <= strength || std::abs(p.direction.col(0).dot(n)) > kAlongSurface) continue;
+    auto nodes = setup.surface.corners[TriId(t)];
+    std::sort(nodes.begin(), nodes.end());
+    const auto& x = setup.surface.positions;
+    const Vec3 at = centroid(setup.surface, TriId(t));
+    out.push_back({at, p.value[0], p.direction.col(0), -n, strength, TriId(t), {x[nodes[0]], x[nodes[1]], x[nodes[2]]},
+                   (at - center).norm()});
+  }
+  return out;
+}
+
+}  // namespace
+
+struct FrameLoop::Clock {
+  std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last).count();
+    last = now;
+    return seconds;
+  }
+};
+
+FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
+    : scene_(scene),
+      options_(options),
+      m_(scene.material.elastic()),
+      setup_(set_up_body(scene)),
+      bem_(setup_, m_, sif_settings(scene.run), {scene.run.quadrature_tolerance, scene.run.contact}),
+      predictor_(make_predictor(scene, options, bem_, setup_.crack_edge)),
+      history_(scene.material, setup_.crack_edge),
+      crack_{initial_sheet(setup_), {}, {}, {}, {}, {}},
+      fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = setup_.surface_edge}),
+      rayleigh_speed_(rayleigh_speed(m_, scene.material.density,
+                                     scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
+  crack_.cut = whole_surface(setup_.surface);
+}
+
+// One new crack at a time, where the stress as last solved exceeds the strength most.
+void FrameLoop::start_cracks(RunResult& result) {
+  if (setup_.infinite() || started_ >= scene_.run.max_cracks) return;
+  std::vector<Vec3> taken(crack_.sheet.mesh.positions.begin(), crack_.sheet.mesh.positions.end());
+  const auto sites = choose_sites(find_candidates(setup_, crack_, bem_.body(), scene_.material.strength), taken,
+                                  {setup_.crack_edge, 2 * setup_.crack_edge, 1});
+  for (const CrackSite& site : sites) {
+    append_part(crack_.sheet, disc_sheet(site));
+    ++started_;
+    ++result.cracks;
+  }
+  fine_.append_parts(crack_.sheet);
+}
+
+// What every point is about to do, its line in front.csv, and the samples that pair it with the frame before.
+std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<FrontOpening>& openings, RunResult& result) {
+  std::vector<FrontStep> steps;
+  largest_intensity_ = 0;
+  for (std::size_t i = 0; i < crack_.points.size(); ++i) {
+    const FrontPoint& point = crack_.points[i];
+    const FrontOpening& o = openings[i];
+    const FrontFrame& f = point.frame;
+    const double K_eff = effective_intensity(o.intensity, m_);
+    const double length = crack_.sheet.state[point.node] == FrontState::arrested
+                              ? 0
+                              : advance_length(K_eff, scene_.material.toughness, setup_.crack_edge);
+    const double angle = kink_angle(o.intensity, m_);
+    largest_intensity_ = std::max(largest_intensity_, K_eff);
+    if (length > 0) steps.push_back({point.node, f, angle, K_eff});
+    FrontRow row;
+    row.frame = frame;
+    row.front = point.front;
+    row.node = point.node.value;
+    row.position = crack_.sheet.mesh.positions[point.node] + setup_.origin;
+    row.intensity = o.intensity;
+    row.opening = {o.opening.dot(f.e1), o.opening.dot(f.e2), o.opening.dot(f.e3)};
+    row.speed = rayleigh_speed_ * length / setup_.crack_edge;
+    row.kink_angle = angle;
+    result.front.push_back(row);
+    result.largest_growth = std::max(result.largest_growth, crack_.sheet.travelled[point.node]);
+    if (auto sample = predictor_ ? std::nullopt : history_.sample(crack_, point)) {
+      const FrontFrame& before = history_.find(point.correlation)->frame;
+      sample->opening = {o.opening.dot(before.e1), o.opening.dot(before.e2), o.opening.dot(before.e3)};
+      if (!o.opening.isZero(0)) result.samples.add(*sample);
+    }
+    if (!o.in_range && !warned_) {
+      warned_ = true;
+      result.document.warnings.push_back(fmt::format(
+          "frame {}: the forest is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, K_III = {:.3g} Pa√m); train it on "
+          "a database that covers such loads",
+          frame, o.intensity[0], o.intensity[1], o.intensity[2]));
+      warning(result.document.warnings.back());
+    }
+  }
+  if (!predictor_) history_.remember(crack_, openings);
+  for (const FrontPoint& point : ligament_points(crack_))
+    steps.push_back({point.node, point.frame, 0,
+                     std::max(largest_intensity_, kLigamentIntensity * scene_.material.toughness)});
+  return steps;
+}
+
+void FrameLoop::write_frame(int frame, RunFolder& folder, const std::vector<FrontOpening>& openings) {
+  FrameData data;
+  data.time = frame * setup_.crack_edge / rayleigh_speed_;
+  data.body = setup_.surface;
+  data.crack = crack_.trimmed;
+  for (TriMesh* mesh : {&data.body, &data.crack})
+    for (Vec3& x : mesh->positions)
+      x += setup_.origin;
+  data.intensity.assign(data.crack.node_count(), Vec3::Zero());
+  data.opening.assign(data.crack.node_count(), Vec3::Zero());
+  for (std::size_t i = 0; i < crack_.points.size(); ++i) {
+    data.intensity[crack_.node_in_cut[crack_.points[i].node]] = openings[i].intensity;
+    if (const NodeId c = crack_.points[i].correlation; c.valid() && crack_.node_in_cut[c].valid())
+      data.opening[crack_.node_in_cut[c]] = openings[i].opening;
+  }
+  const bool solved = !predictor_ || frame == 1;
+  if (solved) data.opening = bem_.body().opening();
+  if (solved && !setup_.infinite()) {
+    data.displacement = bem_.body().displacement();
+    for (const Vec3& t : bem_.body().traction())
+      data.traction.push_back(t);
+    for (const Mat3& s : bem_.body().surface_stress())
+      data.principal_stress.push_back(principal_stress(s).value);
+  }
+  folder.write_frame(frame, data);
+}
+
+void FrameLoop::run(RunResult& result, RunFolder* folder) {
+  RunDocument& doc = result.document;
+  const int limit = options_.frames.value_or(scene_.run.frames);
+  result.cracks = static_cast<int>(setup_.cracks.size());
+  std::optional<Progress> progress;
+  if (options_.progress) progress.emplace("frames", static_cast<std::size_t>(limit));
+  Clock clock;
+  if (result.cracks == 0 && scene_.run.max_cracks > 0) {
+    bem_.solve(crack_.cut);
+    doc.opening_seconds += clock.lap();
+    start_cracks(result);
+  }
+  doc.stop = crack_.sheet.fronts.empty() ? "intact" : "frame-limit";
+  if (crack_.sheet.fronts.empty()) return;
+  const ToughnessField toughness = [K_c = scene_.material.toughness](const Vec3&) { return K_c; };
+  update_crack(crack_, setup_.surface);
+  for (int frame = 1; frame <= limit; ++frame) {
+    if (interrupted()) {
+      doc.stop = "interrupted";
+      break;
+    }
+    if (!setup_.infinite() && separates(crack_.cut)) {
+      doc.stop = "separated";
+      break;
+    }
+    FrameRecord record;
+    record.frame = frame;
+    record.source = predictor_ && frame > 1 ? predictor_->name() : "bem";
+    record.front_nodes = crack_.points.size();
+    clock.lap();
+    const std::vector<FrontOpening> openings = predictor_ ? predictor_->open(crack_) : bem_.open(crack_);
+    record.opening_seconds = clock.lap();
+    doc.frames = frame;
+    std::vector<FrontStep> steps = record_and_step(frame, openings, result);
+    const std::size_t fronts_before = crack_.sheet.fronts.size();
+    if (folder) write_frame(frame, *folder, openings);
+    record.other_seconds = clock.lap();
+    if (!predictor_) start_cracks(result);
+    const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
+    if (!steps.empty())
+      advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness, setup_.crack_edge);
+    if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface);
+    record.fracture_seconds = clock.lap();
+    record.crack_triangles = crack_.trimmed.triangle_count();
+    record.max_K_eff = largest_intensity_;
+    doc.opening_seconds += record.opening_seconds;
+    doc.fracture_seconds += record.fracture_seconds;
+    doc.timings.push_back(record);
+    if (progress) progress->advance();
+    if (steps.empty() && !new_crack) {
+      doc.stop = "arrested";
+      break;
+    }
+  }
+  if (doc.stop == "frame-limit" && !setup_.infinite() && separates(crack_.cut)) doc.stop = "separated";
+  fine_.finish();
+}
+
+std::vector<TriMesh> FrameLoop::fine_sheets() const {
+  const TriMesh& all = fine_.surface();
+  const std::vector<int> part = connected_parts(all);
+  std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+  std::vector<NodeId> moved(all.node_count());
+  for (std::size_t i = 0; i < all.node_count(); ++i)
+    moved[i] = sheets[part[i]].positions.add(all.positions[NodeId(i)]);
+  for (const auto& c : all.corners)
+    sheets[part[c[0].index()]].corners.push_back({moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+  std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
+  return sheets;
+}
+
+}  // namespace conchoid

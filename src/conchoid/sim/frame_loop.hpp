@@ -1,0 +1,46 @@
+#pragma once
+
+#include <chrono>
+
+#include "conchoid/crack/fine_front.hpp"
+#include "conchoid/sim/opening_source.hpp"
+#include "conchoid/sim/run.hpp"
+
+namespace conchoid {
+
+/// The frames of one run: the body, its cracks and the source of their opening.
+class FrameLoop {
+ public:
+  FrameLoop(const Scene& scene, const RunOptions& options);
+
+  /// Computes frames until something stops it; fills document.stop, frames and timings, front, samples.
+  void run(RunResult& result, RunFolder* folder);
+
+  const BodySetup& setup() const { return setup_; }
+  const CrackState& crack() const { return crack_; }
+  /// Fine crack surfaces as swept (they may stick out), one sheet per crack, centred coordinates.
+  std::vector<TriMesh> fine_sheets() const;
+  std::size_t crack_triangles() const { return crack_.trimmed.triangle_count(); }
+
+ private:
+  struct Clock;
+  void start_cracks(RunResult& result);
+  std::vector<FrontStep> record_and_step(int frame, const std::vector<FrontOpening>& openings, RunResult& result);
+  void write_frame(int frame, RunFolder& folder, const std::vector<FrontOpening>& openings);
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  ElasticConstants m_;
+  BodySetup setup_;
+  BemOpening bem_;
+  std::unique_ptr<OpeningSource> predictor_;   // none: bem_ itself
+  FrontHistory history_;
+  CrackState crack_;
+  FineFront fine_;
+  double rayleigh_speed_;
+  double largest_intensity_ = 0;               // K_eff of the frame
+  int started_ = 0;
+  bool warned_ = false;
+};
+
+}  // namespace conchoid

@@ -1,0 +1,37 @@
+#include "conchoid/sim/front_history.hpp"
+
+#include "conchoid/sim/opening_source.hpp"
+
+namespace conchoid {
+
+const FrontHistory::Entry* FrontHistory::find(NodeId node) const {
+  const auto found = entries_.find(node);
+  return found == entries_.end() ? nullptr : &found->second;
+}
+
+std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontPoint& point) const {
+  if (!point.correlation.valid() || !(point.distance > 0)) return {};
+  const Entry* before = find(point.correlation);
+  if (!before || !(before->distance > 0)) return {};
+  Sample s;
+  s.frame = crack.sheet.frame + 1;
+  s.node = point.correlation.value;
+  s.K = before->intensity;
+  s.toughness = material_.toughness;
+  s.resolution = resolution_;
+  s.distance_before = before->distance;
+  s.distance_after = point.distance;
+  s.travelled = crack.sheet.travelled[point.correlation];
+  s.youngs_modulus = material_.youngs_modulus;
+  s.poisson_ratio = material_.poisson_ratio;
+  return s;
+}
+
+void FrontHistory::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
+  for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    const FrontPoint& p = crack.points[i];
+    entries_[p.node] = {p.frame, openings[i].node_intensity, p.distance, crack.sheet.frame};
+  }
+}
+
+}  // namespace conchoid

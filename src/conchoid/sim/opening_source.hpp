@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "conchoid/bem/cracked_body.hpp"
+#include "conchoid/crack/stress_intensity.hpp"
+#include "conchoid/sim/body_setup.hpp"
+#include "conchoid/sim/crack_state.hpp"
+#include "conchoid/sim/front_history.hpp"
+
+namespace conchoid {
+
+/// What the scene says about SIFs.
+SifSettings sif_settings(const RunSpec& run);
+
+/// What is known at a front point: the opening behind it, and the SIFs that drive it.
+struct FrontOpening {
+  Vec3 opening = Vec3::Zero();          ///< Δu at the correlation node, world axes [m]
+  Vec3 intensity = Vec3::Zero();        ///< K that moves the front [Pa√m]
+  Vec3 node_intensity = Vec3::Zero();   ///< K from this opening alone (S3): what features are made of [Pa√m]
+  bool in_range = true;                 ///< false: a predictor was asked beyond its training
+};
+
+/// The socket: where the crack opening comes from.
+class OpeningSource {
+ public:
+  virtual ~OpeningSource() = default;
+  virtual std::string name() const = 0;
+  /// Opening and K at every point of the crack as it stands, in the order of crack.points.
+  virtual std::vector<FrontOpening> open(const CrackState& crack) = 0;
+};
+
+/// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
+class BemOpening : public OpeningSource {
+ public:
+  BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif, const BemSettings& bem);
+  std::string name() const override { return "bem"; }
+  std::vector<FrontOpening> open(const CrackState& crack) override;
+  /// The body as it was last solved.
+  const CrackedBody& body() const { return body_; }
+  /// Solves without asking for SIFs (no crack yet).
+  void solve(const CutComplex& cut);
+
+ private:
+  CrackedBody body_;
+  ElasticConstants m_;
+  SifSettings sif_;
+};
+
+/// Frame 1 by boundary elements, then predicted: the opening of each point follows from the K which its correlation node had
+/// when it was on the front. Linear in the number of front points.
+class PredictedOpening : public OpeningSource {
+ public:
+  PredictedOpening(BemOpening& first, const MaterialSpec& material, double resolution, const SifSettings& sif)
+      : first_(first), sif_(sif), history_(material, resolution) {}
+  std::vector<FrontOpening> open(const CrackState& crack) override;
+
+ protected:
+  /// Openings [m] in the front frames of the frame before.
+  struct Guess {
+    Vec3 opening;
+    bool in_range;
+  };
+  virtual std::vector<Guess> predict(const SampleSet& samples) = 0;
+
+ private:
+  BemOpening& first_;
+  SifSettings sif_;
+  FrontHistory history_;
+};
+
+/// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
+std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material, double resolution,
+                                                   const SifSettings& sif);
+/// A regression forest (learn/forest.hpp), which must outlive the source.
+class RegressionForest;
+std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
+                                                   const MaterialSpec& material, double resolution, const SifSettings& sif);
+
+}  // namespace conchoid

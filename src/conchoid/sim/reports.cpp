@@ -1,0 +1,78 @@
+#include "conchoid/sim/reports.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "conchoid/bem/surface_stress.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/sim/opening_source.hpp"
+
+namespace conchoid {
+namespace {
+
+CrackState initial_crack(const BodySetup& setup) {
+  CrackState crack;
+  for (const TriMesh& sheet : setup.cracks)
+    append_part(crack.sheet, sheet);
+  update_crack(crack, setup.surface);
+  return crack;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening) {
+  double volume = 0;
+  for (std::size_t t = 0; t < crack.triangle_count(); ++t)
+    for (NodeId node : crack.corners[TriId(t)])
+      volume += area_vector(crack, TriId(t)).dot(opening[node]) / 3;
+  return volume;
+}
+
+}  // namespace
+
+SifReport compute_sifs(const Scene& scene) {
+  const auto start = std::chrono::steady_clock::now();
+  const BodySetup setup = set_up_body(scene);
+  if (setup.cracks.empty())
+    throw InputError(scene.file + ": there is no crack to take stress intensity factors of; add a [[crack]]");
+  const SifSettings sif = sif_settings(scene.run);
+  BemOpening bem(setup, scene.material.elastic(), sif, {scene.run.quadrature_tolerance, scene.run.contact});
+  const CrackState crack = initial_crack(setup);
+  bem.solve(crack.cut);
+  SifReport report;
+  for (const Front& front : crack.fronts) {
+    const auto K = stress_intensities(crack.trimmed, front, bem.body().opening(), scene.material.elastic(), sif);
+    report.fronts.push_back({front.closed, {}});
+    for (std::size_t i = 0; i < K.size(); ++i)
+      report.fronts.back().nodes.push_back(
+          {crack.trimmed.positions[front.nodes[i]] + setup.origin, K[i], front.frames[i]});
+  }
+  report.triangles = crack.trimmed.triangle_count();
+  report.opened_volume = opened_volume(crack.trimmed, bem.body().opening());
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+StressReport compute_stress(const Scene& scene) {
+  const auto start = std::chrono::steady_clock::now();
+  if (scene.body.infinite())
+    throw InputError(scene.body.where + ": the infinite body has no surface to show stress on; use a body with one");
+  const BodySetup setup = set_up_body(scene);
+  BemOpening bem(setup, scene.material.elastic(), {}, {scene.run.quadrature_tolerance, scene.run.contact});
+  bem.solve(initial_crack(setup).cut);
+  const IdVector<TriId, int> region = region_of_triangles(setup.surface, setup.regions);
+  StressReport report;
+  const std::vector<Mat3> stress = bem.body().surface_stress();
+  for (std::size_t t = 0; t < stress.size(); ++t) {
+    const Vec3 principal = principal_stress(stress[t]).value;
+    report.triangles.push_back({centroid(setup.surface, TriId(t)) + setup.origin, principal,
+                                region[TriId(t)] >= 0 ? setup.regions[region[TriId(t)]].name : std::string()});
+    report.max_principal = t == 0 ? principal[0] : std::max(report.max_principal, principal[0]);
+  }
+  report.seconds = seconds_since(start);
+  return report;
+}
+
+}  // namespace conchoid

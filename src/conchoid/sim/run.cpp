@@ -1,0 +1,166 @@
+#include "conchoid/sim/run.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/hash.hpp"
+#include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/sim/frame_loop.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double kRunOut = 0.5;  // × r̄: how far a crack that separates the coarse body is run on through the detailed one
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void move_back(TriMesh& mesh, const Vec3& origin) {
+  for (Vec3& x : mesh.positions)
+    x += origin;
+}
+
+TriMesh join(const std::vector<TriMesh>& sheets) {
+  TriMesh all;
+  for (const TriMesh& sheet : sheets) {
+    const std::size_t first = all.node_count();
+    all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
+    for (const auto& c : sheet.corners)
+      all.corners.push_back({NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
+  }
+  return all;
+}
+
+// Nodes that no triangle uses are dropped.
+TriMesh used_part(const CutComplex& cut) {
+  TriMesh out;
+  std::vector<NodeId> moved(cut.positions.size());
+  for (const auto& c : cut.sheet) {
+    std::array<NodeId, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      NodeId& to = moved[c[k].index()];
+      if (!to.valid()) to = out.positions.add(cut.positions[c[k]]);
+      corners[k] = to;
+    }
+    out.corners.push_back(corners);
+  }
+  return out;
+}
+
+std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
+  for (TriMesh& sheet : sheets)
+    sheet = extend_sheet_beyond(sheet, boundary_edges(sheet), length);
+  return sheets;
+}
+
+// The detailed body in pieces, and the crack surface inside it.
+void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResult& result) {
+  const BodySetup& setup = loop.setup();
+  std::vector<TriMesh> sheets = loop.fine_sheets();
+  if (setup.infinite()) {
+    result.crack = join(sheets);
+    return;
+  }
+  const FragmentSettings settings{scene.material.density, scene.run.smallest_fragment};
+  if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+  if (result.document.stop == "separated" && fragments && result.fragments.size() < 2) {
+    sheets = run_on(std::move(sheets), kRunOut * setup.crack_edge);
+    result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+  }
+  result.crack = used_part(corefine(setup.detailed, join(sheets)));
+  for (Fragment& f : result.fragments) {
+    move_back(f.mesh, setup.origin);
+    f.center_of_mass += setup.origin;
+    result.document.fragments.push_back(fragment_record(f));
+  }
+  move_back(result.crack, setup.origin);
+}
+
+std::string result_hash(const RunResult& result) {
+  ContentHash hash;
+  const auto add = [&](const TriMesh& mesh) {
+    hash.add(std::span<const Vec3>(mesh.positions));
+    for (const auto& c : mesh.corners)
+      hash.add(std::array{c[0].value, c[1].value, c[2].value});
+  };
+  hash.add(result.document.stop);
+  add(result.crack);
+  for (const Fragment& f : result.fragments)
+    add(f.mesh);
+  for (const FrontRow& row : result.front) {
+    hash.add(row.position.x());
+    hash.add(std::array{row.intensity[0], row.intensity[1], row.intensity[2]});
+    hash.add(std::array{row.opening[0], row.opening[1], row.opening[2]});
+  }
+  return hash.hex();
+}
+
+void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& options, RunDocument& doc) {
+  doc.scene_file = scene.file;
+  doc.scene_text = scene.text;
+  doc.method = name(options.method);
+  const BodySetup& setup = loop.setup();
+  doc.settings = {{"resolution.crack", setup.crack_edge},
+                  {"resolution.surface", setup.surface_edge},
+                  {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
+                  {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
+                  {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
+                  {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")}};
+  doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
+  if (setup.infinite()) return;
+  Box box = bounding_box(setup.detailed);
+  box.low += setup.origin;
+  box.high += setup.origin;
+  doc.body = box;
+  doc.body_volume = enclosed_volume(setup.detailed);
+}
+
+void write_results(const RunResult& result, RunFolder& folder) {
+  folder.write_front_csv(result.front);
+  folder.write_crack(result.crack);
+  if (!result.fragments.empty()) folder.write_fragments(result.fragments);
+  folder.write_run_json(result.document);
+}
+
+}  // namespace
+
+Method method_from_name(const std::string& text) {
+  for (Method m : {Method::bem, Method::forest, Method::steady})
+    if (name(m) == text) return m;
+  throw InputError(fmt::format("method '{}' is not known; use bem, forest or steady", text));
+}
+
+std::string name(Method method) {
+  return method == Method::bem ? "bem" : method == Method::forest ? "forest" : "steady";
+}
+
+RunResult run_scene(const Scene& scene, const RunOptions& options) {
+  if (options.method == Method::forest && !options.forest)
+    throw InputError("method 'forest' needs a trained forest: --database FOREST");
+  const auto start = std::chrono::steady_clock::now();
+  RunResult result;
+  RunDocument& doc = result.document;
+  std::optional<RunFolder> folder;
+  FrameLoop loop(scene, options);
+  if (options.folder) folder.emplace(*options.folder);
+  describe(scene, loop, options, doc);
+  const std::size_t body_triangles = loop.setup().surface.triangle_count();
+  std::size_t crack_triangles = 0;
+  for (const TriMesh& crack : loop.setup().cracks)
+    crack_triangles += crack.triangle_count();
+  doc.initial_triangles = body_triangles + crack_triangles;
+  loop.run(result, folder ? &*folder : nullptr);
+  doc.final_triangles = body_triangles + loop.crack_triangles();
+  cut_body(scene, loop, options.fragments, result);
+  doc.hash = result_hash(result);
+  doc.total_seconds = seconds_since(start);
+  doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
+  if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
+  if (folder) write_results(result, *folder);
+  return result;
+}
+
+}  // namespace conchoid

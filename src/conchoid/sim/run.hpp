@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conchoid/io/run_folder.hpp"
+#include "conchoid/learn/sample.hpp"
+#include "conchoid/sim/scene.hpp"
+
+namespace conchoid {
+
+class RegressionForest;
+
+/// Where the crack opening comes from.
+enum class Method { bem, forest, steady };
+/// "bem", "forest", "steady". Throws InputError for another name.
+Method method_from_name(const std::string& name);
+std::string name(Method method);
+
+struct RunOptions {
+  Method method = Method::bem;
+  const RegressionForest* forest = nullptr;     ///< for Method::forest
+  std::optional<int> frames;                    ///< in place of the scene's
+  std::optional<std::filesystem::path> folder;  ///< run folder to write; none: nothing is written
+  bool fragments = true;                        ///< cut the body at the end
+  bool progress = true;                         ///< a line on the terminal
+};
+
+/// What a run gives, in the scene's coordinates.
+struct RunResult {
+  RunDocument document;
+  TriMesh crack;                      ///< fine crack surface, trimmed to the body
+  std::vector<Fragment> fragments;    ///< largest first
+  std::vector<FrontRow> front;        ///< every front point of every frame
+  SampleSet samples;                  ///< of a BEM run: front elements paired over two frames
+  int cracks = 0;                     ///< that started or were there
+  double largest_growth = 0;          ///< farthest that any front has travelled [m]
+};
+
+/// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is separated or the frame
+/// limit is reached; then cut the body. document.stop says which: "arrested", "separated", "frame-limit", "intact" (nothing
+/// cracked) or "interrupted" (Ctrl-C: what was computed is kept and written).
+/// Same scene, same bits: for every number of threads, with a folder or without.
+RunResult run_scene(const Scene& scene, const RunOptions& options);
+
+}  // namespace conchoid
