@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conchoid/io/picture.hpp"
+
+namespace conchoid {
+
+/// Range of the colour map: over all panels whose legend has the same name.
+Vec2 value_range(const std::vector<PicturePanel>& panels, const std::string& name);
+
+/// Height that the texts of a panel need above and below the picture [pixel].
+/// @param size  height of the title's capital letters [pixel]
+Vec2 label_room(const PicturePanel& panel, double size);
+
+/// Title, caption and, where a mesh shows values, the legend, over the columns [x0, x0 + width) of the image.
+void draw_labels(Image& image, const PicturePanel& panel, int x0, int width, const Vec2& range, double size);
+
+}  // namespace conchoid
