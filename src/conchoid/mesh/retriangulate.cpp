@@ -7,28 +7,16 @@
 #include <set>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/mesh/triangulate_polygon.hpp"
 
 namespace conchoid {
 namespace {
 
-using Index = int;
-using Polygon = std::vector<Index>;    ///< closed walk, counter-clockwise; nodes come twice along a slit
-using Link = std::pair<Index, Index>;  ///< nodes of an edge, ascending
-using Diagonal = std::pair<std::size_t, std::size_t>;  ///< places in a walk, ascending
-
-Link link(Index a, Index b) {
-  return a < b ? Link(a, b) : Link(b, a);
-}
+using Index = PlaneIndex;
+using Polygon = PlanePolygon;
+using Link = PlaneLink;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Larger polygons are reduced by cutting off ears before the optimal triangulation, whose cost grows with
-/// n³.
-constexpr std::size_t optimal_limit = 40;
-
-double area2(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Vec2 u = b - a, v = c - a;
-  return u.x() * v.y() - u.y() * v.x();
-}
 
 /// The triangle in its own plane: x along (corner 0, corner 1), longest edge of length 1. Local nodes are 0,
 /// 1, 2 (corners), then the others in ascending id, so that an index comparison is an id comparison.
@@ -37,23 +25,22 @@ class LocalTriangle {
   LocalTriangle(const IdVector<NodeId, Vec3>& positions, const TriangleCut& cut) : cut_(cut) {
     collect_nodes();
     project(positions);
-    std::vector<Link> rim;
     for (int k = 0; k < 3; ++k) {
       Index last = k;
-      edges_of_[k] |= (1 << k) | (1 << ((k + 2) % 3));
+      nodes_.edges_of[k] |= (1 << k) | (1 << ((k + 2) % 3));
       for (const NodeId id : cut.on_edge[k]) {
         const Index i = index(id);
-        edges_of_[i] |= 1 << k;
+        nodes_.edges_of[i] |= 1 << k;
         rim_.push_back(last);
         last = i;
       }
       rim_.push_back(last);
     }
     for (std::size_t i = 0; i < rim_.size(); ++i)
-      used_.insert(link(rim_[i], rim_[(i + 1) % rim_.size()]));
+      nodes_.used.insert(plane_link(rim_[i], rim_[(i + 1) % rim_.size()]));
     for (const Edge& s : cut.segments) {
       const Index a = index(s.a), b = index(s.b);
-      used_.insert(link(a, b));
+      nodes_.used.insert(plane_link(a, b));
       neighbours_[a].push_back(b);
       neighbours_[b].push_back(a);
     }
@@ -75,7 +62,7 @@ class LocalTriangle {
     join_islands(faces);
     std::vector<std::array<Index, 3>> triangles;
     for (Polygon& face : faces)
-      triangulate(std::move(face), triangles);
+      triangulate_polygon(nodes_, std::move(face), triangles);
     std::vector<std::array<NodeId, 3>> result;
     for (const auto& t : triangles)
       result.push_back({ids_[t[0]], ids_[t[1]], ids_[t[2]]});
@@ -98,7 +85,7 @@ class LocalTriangle {
         if (std::find(cut_.corners.begin(), cut_.corners.end(), id) == cut_.corners.end()) ids_.push_back(id);
     std::sort(ids_.begin() + 3, ids_.end());
     ids_.erase(std::unique(ids_.begin() + 3, ids_.end()), ids_.end());
-    edges_of_.assign(ids_.size(), 0);
+    nodes_.edges_of.assign(ids_.size(), 0);
     neighbours_.resize(ids_.size());
   }
 
@@ -110,10 +97,10 @@ class LocalTriangle {
     if (e1.squaredNorm() > 0) e1 /= e1.norm();
     Vec3 e2 = (c - a) - e1.dot(c - a) * e1;
     if (e2.squaredNorm() > 0) e2 /= e2.norm();
-    at_.resize(ids_.size());
+    nodes_.at.resize(ids_.size());
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       const Vec3 d = (positions[ids_[i]] - a) / (longest > 0 ? longest : 1.0);
-      at_[i] = {d.dot(e1), d.dot(e2)};
+      nodes_.at[i] = {d.dot(e1), d.dot(e2)};
     }
   }
 
@@ -163,7 +150,8 @@ class LocalTriangle {
     std::size_t at_c = 0, at_d = 0;
     for (std::size_t i = 0; i + 1 < c.size(); ++i)
       for (std::size_t j = 0; j + 1 < d.size(); ++j) {
-        const double distance = (at_[c[i]] + at_[c[i + 1]] - at_[d[j]] - at_[d[j + 1]]).squaredNorm();
+        const double distance =
+            (nodes_.at[c[i]] + nodes_.at[c[i + 1]] - nodes_.at[d[j]] - nodes_.at[d[j + 1]]).squaredNorm();
         const double rank = crosses(c[i], c[i + 1], d[j], d[j + 1]) ? -1 / (1 + distance) : distance;
         if (rank < best) {
           best = rank;
@@ -320,7 +308,7 @@ class LocalTriangle {
   double signed_area(const Polygon& p) const {
     double sum = 0;
     for (std::size_t i = 1; i + 1 < p.size(); ++i)
-      sum += area2(at_[p[0]], at_[p[i]], at_[p[i + 1]]);
+      sum += plane_area2(nodes_.at[p[0]], nodes_.at[p[i]], nodes_.at[p[i + 1]]);
     return sum;
   }
 
@@ -330,7 +318,7 @@ class LocalTriangle {
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const Index a = p[i], b = p[(i + 1) % p.size()], c = p[(i + 2) % p.size()];
-      const Vec2 u = at_[b] - at_[a], v = at_[c] - at_[b];
+      const Vec2 u = nodes_.at[b] - nodes_.at[a], v = nodes_.at[c] - nodes_.at[b];
       double angle = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
       if (std::abs(angle) > 3 && cut_.turn)
         if (const int sense = cut_.turn(ids_[a], ids_[b], ids_[c])) angle = sense * std::abs(angle);
@@ -342,8 +330,9 @@ class LocalTriangle {
   bool contains(const Polygon& p, const Vec2& x) const {
     bool inside = false;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const Vec2 &a = at_[p[i]], &b = at_[p[(i + 1) % p.size()]];
-      if ((a.y() > x.y()) != (b.y() > x.y()) && (area2(a, b, x) > 0) == (b.y() > a.y())) inside = !inside;
+      const Vec2 &a = nodes_.at[p[i]], &b = nodes_.at[p[(i + 1) % p.size()]];
+      if ((a.y() > x.y()) != (b.y() > x.y()) && (plane_area2(a, b, x) > 0) == (b.y() > a.y()))
+        inside = !inside;
     }
     return inside;
   }
@@ -355,8 +344,9 @@ class LocalTriangle {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       long votes = 0;
       for (std::size_t i = 0; i < island.size(); ++i)
-        votes += contains(faces[f], at_[island[i]]) +
-                 contains(faces[f], 0.5 * (at_[island[i]] + at_[island[(i + 1) % island.size()]]));
+        votes +=
+            contains(faces[f], nodes_.at[island[i]]) +
+            contains(faces[f], 0.5 * (nodes_.at[island[i]] + nodes_.at[island[(i + 1) % island.size()]]));
       if (votes > best_votes) {
         best_votes = votes;
         best = f;
@@ -367,8 +357,9 @@ class LocalTriangle {
 
   bool crosses(Index a, Index b, Index c, Index d) const {
     if (a == c || a == d || b == c || b == d) return false;
-    const auto &A = at_[a], &B = at_[b], &C = at_[c], &D = at_[d];
-    return (area2(A, B, C) > 0) != (area2(A, B, D) > 0) && (area2(C, D, A) > 0) != (area2(C, D, B) > 0);
+    const auto &A = nodes_.at[a], &B = nodes_.at[b], &C = nodes_.at[c], &D = nodes_.at[d];
+    return (plane_area2(A, B, C) > 0) != (plane_area2(A, B, D) > 0) &&
+           (plane_area2(C, D, A) > 0) != (plane_area2(C, D, B) > 0);
   }
 
   /// Joins a hole to the polygon around it by the shortest edge that crosses nothing; the joined walk runs
@@ -381,18 +372,19 @@ class LocalTriangle {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < face.size(); ++i)
       for (std::size_t j = 0; j < hole.size(); ++j)
-        candidates.push_back({(at_[face[i]] - at_[hole[j]]).squaredNorm(), i, j});
+        candidates.push_back({(nodes_.at[face[i]] - nodes_.at[hole[j]]).squaredNorm(), i, j});
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& x, const Candidate& y) { return x.length < y.length; });
     const auto clear = [&](const Candidate& c) {
       for (const Polygon* p : {static_cast<const Polygon*>(&face), &hole})
         for (std::size_t k = 0; k < p->size(); ++k)
           if (crosses(face[c.i], hole[c.j], (*p)[k], (*p)[(k + 1) % p->size()])) return false;
-      return in_wedge(face, c.i, at_[hole[c.j]]) && in_wedge(hole, c.j, at_[face[c.i]]);
+      return in_wedge(nodes_, face, c.i, nodes_.at[hole[c.j]]) &&
+             in_wedge(nodes_, hole, c.j, nodes_.at[face[c.i]]);
     };
     const auto found = std::find_if(candidates.begin(), candidates.end(), clear);
     const Candidate chosen = found != candidates.end() ? *found : candidates.front();
-    used_.insert(link(face[chosen.i], hole[chosen.j]));
+    nodes_.used.insert(plane_link(face[chosen.i], hole[chosen.j]));
     Polygon joined(face.begin(), face.begin() + static_cast<long>(chosen.i) + 1);
     for (std::size_t k = 0; k <= hole.size(); ++k)
       joined.push_back(hole[(chosen.j + k) % hole.size()]);
@@ -400,163 +392,12 @@ class LocalTriangle {
     face = std::move(joined);
   }
 
-  /// Whether x is seen from corner i of the walk on its inner side (the left).
-  bool in_wedge(const Polygon& p, std::size_t i, const Vec2& x) const {
-    const Index before = p[(i + p.size() - 1) % p.size()], after = p[(i + 1) % p.size()];
-    if (before == after) return true;
-    const Vec2 &a = at_[before], &b = at_[p[i]], &c = at_[after];
-    const bool left_in = area2(a, b, x) > 0, left_out = area2(b, c, x) > 0;
-    return area2(a, b, c) > 0 ? left_in && left_out : left_in || left_out;
-  }
-
-  /// No edge of a piece may join two nodes of one edge of the triangle, or double an edge that exists.
-  bool allowed(Index a, Index b) const {
-    return a != b && (edges_of_[a] & edges_of_[b]) == 0 && !used_.contains(link(a, b));
-  }
-
-  /// Small for good shapes (1 for equilateral), huge for no area, prohibitive for the wrong orientation.
-  double badness(Index a, Index b, Index c) const {
-    const Vec2 &A = at_[a], &B = at_[b], &C = at_[c];
-    const double area = area2(A, B, C);
-    const double lengths = (B - A).squaredNorm() + (C - B).squaredNorm() + (A - C).squaredNorm();
-    if (area <= 0) return 1e12 + 1e30 * -area;
-    return std::min(1e12, lengths / (2 * std::sqrt(3.0) * area));
-  }
-
-  void triangulate(Polygon polygon, std::vector<std::array<Index, 3>>& out) {
-    cut_ears(polygon, out);
-    if (polygon.size() < 3) return;
-    std::vector<std::array<std::size_t, 3>> places;
-    int budget = 1000;
-    if (!triangulate_once_each(polygon, {}, budget, places))
-      throw ComputationError("a cut triangle could not be divided into pieces");
-    for (const auto& t : places) {
-      out.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
-      for (int k = 0; k < 3; ++k)
-        used_.insert(link(polygon[t[k]], polygon[t[(k + 1) % 3]]));
-    }
-  }
-
-  /// Optimal triangulation in which no diagonal comes twice: both banks of a straight slit like to choose the
-  /// same one. Then one of them keeps it and the others are forbidden it.
-  bool triangulate_once_each(const Polygon& p, const std::set<Diagonal>& forbidden, int& budget,
-                             std::vector<std::array<std::size_t, 3>>& places) const {
-    places.clear();
-    if (--budget < 0 || !optimal_triangulation(p, forbidden, places)) return false;
-    std::map<Link, std::set<Diagonal>> diagonals;
-    for (const auto& t : places)
-      for (const auto& [i, j] : {Diagonal(t[0], t[1]), Diagonal(t[1], t[2]), Diagonal(t[0], t[2])})
-        if (j - i > 1 && j - i < p.size() - 1) diagonals[link(p[i], p[j])].insert({i, j});
-    const auto twice =
-        std::find_if(diagonals.begin(), diagonals.end(), [](const auto& d) { return d.second.size() > 1; });
-    if (twice == diagonals.end()) return true;
-    const std::set<Diagonal> rivals = twice->second;
-    for (const Diagonal& keeper : rivals) {
-      std::set<Diagonal> next = forbidden;
-      for (const Diagonal& rival : rivals)
-        if (rival != keeper) next.insert(rival);
-      if (triangulate_once_each(p, next, budget, places)) return true;
-    }
-    return false;
-  }
-
-  /// Takes well-shaped triangles off a large polygon, the best first, as long as no other node comes near
-  /// them.
-  void cut_ears(Polygon& p, std::vector<std::array<Index, 3>>& out) {
-    constexpr double margin = 1e-9;
-    const auto quality = [&](std::size_t i) {
-      const std::size_t n = p.size();
-      const Index a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
-      if (a == c || a == b || b == c || !allowed(a, c)) return infinity;
-      const double bad = badness(a, b, c);
-      if (bad > 1e6) return infinity;
-      const double tolerance = margin * (at_[c] - at_[a]).norm();
-      for (const Index q : p) {
-        if (q == a || q == b || q == c) continue;
-        if (area2(at_[a], at_[b], at_[q]) > -tolerance * (at_[b] - at_[a]).norm() &&
-            area2(at_[b], at_[c], at_[q]) > -tolerance * (at_[c] - at_[b]).norm() &&
-            area2(at_[c], at_[a], at_[q]) > -tolerance * (at_[a] - at_[c]).norm())
-          return infinity;
-      }
-      // a node that comes twice: the ear must lie on this bank of the slit
-      return in_wedge(p, (i + n - 1) % n, at_[c]) && in_wedge(p, (i + 1) % n, at_[a]) ? bad : infinity;
-    };
-    if (p.size() <= optimal_limit) return;
-    std::vector<double> bad(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i)
-      bad[i] = quality(i);
-    bool fresh = true;
-    while (p.size() > optimal_limit) {
-      std::size_t best = 0;
-      for (std::size_t i = 1; i < p.size(); ++i)
-        if (bad[i] < bad[best] * (1 - 1e-10) || (bad[i] <= bad[best] * (1 + 1e-10) && p[i] < p[best]))
-          best = i;
-      if (bad[best] == infinity) {
-        if (fresh) return;
-        for (std::size_t i = 0; i < p.size(); ++i)
-          bad[i] = quality(i);
-        fresh = true;
-        continue;
-      }
-      const std::size_t n = p.size();
-      const Index a = p[(best + n - 1) % n], c = p[(best + 1) % n];
-      out.push_back({a, p[best], c});
-      used_.insert(link(a, c));
-      p.erase(p.begin() + static_cast<long>(best));
-      bad.erase(bad.begin() + static_cast<long>(best));
-      bad[best % p.size()] = quality(best % p.size());
-      bad[(best + p.size() - 1) % p.size()] = quality((best + p.size() - 1) % p.size());
-      fresh = false;
-    }
-  }
-
-  /// Triangulation of least total badness (dynamic programming over sub-polygons): places in the walk,
-  /// ascending per triangle. False if there is none.
-  bool optimal_triangulation(const Polygon& p, const std::set<Diagonal>& forbidden,
-                             std::vector<std::array<std::size_t, 3>>& out) const {
-    const std::size_t n = p.size();
-    std::vector<double> cost(n * n, 0.0);
-    std::vector<std::size_t> apex(n * n, 0);
-    for (std::size_t span = 2; span < n; ++span)
-      for (std::size_t i = 0; i + span < n; ++i) {
-        const std::size_t j = i + span;
-        double best = infinity;
-        std::size_t best_k = 0;
-        if (span == n - 1 || (allowed(p[i], p[j]) && !forbidden.contains({i, j})))
-          for (std::size_t k = i + 1; k < j; ++k) {
-            if (p[k] == p[i] || p[k] == p[j]) continue;
-            const double c = cost[i * n + k] + cost[k * n + j] + badness(p[i], p[k], p[j]);
-            if (c < best * (1 - 1e-10) ||
-                (c <= best * (1 + 1e-10) && c < infinity && best_k > 0 && p[k] < p[best_k])) {
-              best = c;
-              best_k = k;
-            }
-          }
-        cost[i * n + j] = best;
-        apex[i * n + j] = best_k;
-      }
-    if (cost[n - 1] == infinity) return false;
-    std::vector<Diagonal> stack{{0, n - 1}};
-    while (!stack.empty()) {
-      const auto [i, j] = stack.back();
-      stack.pop_back();
-      if (j - i < 2) continue;
-      const std::size_t k = apex[i * n + j];
-      out.push_back({i, k, j});
-      stack.push_back({i, k});
-      stack.push_back({k, j});
-    }
-    return true;
-  }
-
   const TriangleCut& cut_;
   std::vector<NodeId> ids_;
-  std::vector<Vec2> at_;
-  std::vector<int> edges_of_;                   ///< bit k: the node lies on edge k
+  PlaneNodes nodes_;
   std::vector<std::vector<Index>> neighbours_;  ///< along segments
   std::map<Index, std::vector<Link>> through_;  ///< at crossings: nodes before and after, per curve
   Polygon rim_;
-  std::set<Link> used_;  ///< edges that must not come a second time as a diagonal
 };
 
 }  // namespace
