@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "conchoid/mesh/cut_editor.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -20,79 +22,14 @@ double size_of(const TriMesh& mesh, TriId t) {
   return std::sqrt(4 / std::sqrt(3.0) * area_vector(mesh, t).norm());
 }
 
-struct Piece {
-  Corners corners;
-  TriId parent;
-};
-
-/// Pieces of the surface or of the sheet, with the pieces around each node.
-class Layer {
- public:
-  Layer(const IdVector<TriId, Corners>& corners, const std::vector<TriId>& parents, std::size_t node_count)
-      : around_(node_count) {
-    for (std::size_t p = 0; p < corners.size(); ++p)
-      add({corners[TriId(p)], parents[p]});
-  }
-  void add(const Piece& piece) {
-    for (const NodeId n : piece.corners)
-      around_[n].push_back(pieces_.size());
-    pieces_.push_back(piece);
-    alive_.push_back(true);
-  }
-  void remove(std::size_t p) {
-    alive_[p] = false;
-    for (const NodeId n : pieces_[p].corners)
-      std::erase(around_[n], p);
-  }
-  const std::vector<std::size_t>& around(NodeId n) const { return around_[n]; }
-  const Piece& operator[](std::size_t p) const { return pieces_[p]; }
-  bool alive(std::size_t p) const { return alive_[p]; }
-  std::size_t size() const { return pieces_.size(); }
-  /// Pieces that have the edge.
-  std::vector<std::size_t> on_edge(NodeId a, NodeId b) const {
-    std::vector<std::size_t> found;
-    for (const std::size_t p : around_[a])
-      if (has(pieces_[p].corners, b)) found.push_back(p);
-    return found;
-  }
-
- private:
-  std::vector<Piece> pieces_;
-  std::vector<bool> alive_;
-  IdVector<NodeId, std::vector<std::size_t>> around_;
-};
-
-constexpr int surface_layer = 0, sheet_layer = 1;
 /// How far a node may go, in merging distances, when that removes an edge shorter than one merging distance.
 constexpr float farthest = 3;
 
-/// A change of the complex, to be checked before it is made.
-struct Change {
-  NodeId moved;  ///< invalid: no node moves
-  Vec3 to = Vec3::Zero();
-  std::vector<NodeId> gone;                         ///< nodes that disappear
-  std::array<std::vector<std::size_t>, 2> removed;  ///< per layer
-  std::array<std::vector<Piece>, 2> added;
-  std::vector<Edge> mouth_removed, mouth_added;
-};
-
-class Merger {
+class Merger : private CutEditor {
  public:
   Merger(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
          IdVector<NodeId, SurfaceSupport> supports, double merge)
-      : cut_(cut),
-        surface_(surface),
-        sheet_(sheet),
-        supports_(std::move(supports)),
-        merge_(static_cast<float>(merge)),
-        layers_{Layer(cut.surface, cut.surface_parent, cut.positions.size()),
-                Layer(cut.sheet, cut.sheet_parent, cut.positions.size())},
-        mouth_(cut.positions.size()) {
-    for (const Edge& e : cut.mouth) {
-      mouth_[e.a].push_back(e.b);
-      mouth_[e.b].push_back(e.a);
-    }
-  }
+      : CutEditor(cut, surface, sheet), supports_(std::move(supports)), merge_(static_cast<float>(merge)) {}
 
   void run() {
     measure_sizes();
@@ -107,13 +44,6 @@ class Merger {
   }
 
  private:
-  bool on_surface(NodeId n) const { return !layers_[surface_layer].around(n).empty(); }
-  bool on_mouth(NodeId n) const { return !mouth_[n].empty(); }
-  bool is_mouth(NodeId a, NodeId b) const {
-    return std::find(mouth_[a].begin(), mouth_[a].end(), b) != mouth_[a].end();
-  }
-  const Vec3& at(NodeId n) const { return cut_.positions[n]; }
-
   /// Local edge length at every node: mean of surface and sheet, the smallest triangles at the node decide;
   /// where one is much finer than the other, it must not lose its own edges.
   void measure_sizes() {
@@ -122,7 +52,7 @@ class Merger {
     for (const int l : {surface_layer, sheet_layer}) {
       smallest[l].assign(cut_.positions.size(), infinity);
       for (std::size_t p = 0; p < layers_[l].size(); ++p) {
-        const Piece& piece = layers_[l][p];
+        const CutPiece& piece = layers_[l][p];
         if (!on_mouth(piece.corners[0]) && !on_mouth(piece.corners[1]) && !on_mouth(piece.corners[2]))
           continue;
         const double size = size_of(l == surface_layer ? surface_ : sheet_, piece.parent);
@@ -152,9 +82,6 @@ class Merger {
     for (const auto& [outer, best] : nearest)
       cut_.sheet_node[best.second] = outer;
   }
-
-  // ---- candidates
-  // -------------------------------------------------------------------------------------------------------
 
   struct Candidate {
     float ratio;  ///< length or altitude / local edge length; float, so that equal lengths tie whatever the
@@ -246,9 +173,6 @@ class Merger {
     return false;
   }
 
-  // ---- changes
-  // ----------------------------------------------------------------------------------------------------------
-
   /// Moves m to n; if that would tear at the neighbours of m on a mouth that passes n closely, they go along.
   bool collapse(NodeId m, NodeId n) {
     if (collapse_all({m}, n)) return true;
@@ -272,7 +196,7 @@ class Merger {
   }
 
   bool collapse_all(const std::vector<NodeId>& run, NodeId n) {
-    Change change;
+    CutChange change;
     change.gone = run;
     const auto gone = [&](NodeId x) { return std::find(run.begin(), run.end(), x) != run.end(); };
     std::size_t ends = 0;
@@ -298,7 +222,7 @@ class Merger {
       change.removed[l].erase(std::unique(change.removed[l].begin(), change.removed[l].end()),
                               change.removed[l].end());
       for (const std::size_t p : change.removed[l]) {
-        Piece piece = layers_[l][p];
+        CutPiece piece = layers_[l][p];
         std::replace_if(piece.corners.begin(), piece.corners.end(), gone, n);
         const Corners& c = piece.corners;
         if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) change.added[l].push_back(piece);
@@ -340,7 +264,7 @@ class Merger {
     } else {
       return false;
     }
-    Change change;
+    CutChange change;
     change.moved = m;
     change.to = to;
     for (const int l : {surface_layer, sheet_layer}) {
@@ -348,13 +272,13 @@ class Merger {
       for (const std::size_t t : layers_[l].on_edge(p, q))
         if (!has(layers_[l][t].corners, m)) change.removed[l].push_back(t);
       for (const std::size_t t : change.removed[l]) {
-        const Piece& piece = layers_[l][t];
+        const CutPiece& piece = layers_[l][t];
         const bool both = has(piece.corners, p) && has(piece.corners, q);
         if (!both) {
           change.added[l].push_back(piece);
         } else if (!has(piece.corners, m)) {
           for (const NodeId end : {p, q}) {
-            Piece half = piece;
+            CutPiece half = piece;
             std::replace(half.corners.begin(), half.corners.end(), end, m);
             change.added[l].push_back(half);
           }
@@ -403,239 +327,25 @@ class Merger {
   }
 
   bool flip(int l, std::size_t p, int k) {
-    const Piece piece = layers_[l][p];
+    const CutPiece piece = layers_[l][p];
     const NodeId a = piece.corners[k], b = piece.corners[(k + 1) % 3], c = piece.corners[(k + 2) % 3];
     if (a > b || is_mouth(a, b)) return false;
     const auto both = layers_[l].on_edge(a, b);
     if (both.size() != 2) return false;
-    const Piece& other = layers_[l][both[0] == p ? both[1] : both[0]];
+    const CutPiece& other = layers_[l][both[0] == p ? both[1] : both[0]];
     if (other.parent != piece.parent) return false;
     NodeId d;
     for (const NodeId n : other.corners)
       if (n != a && n != b) d = n;
     if (c == d || !layers_[l].on_edge(c, d).empty()) return false;
-    Change change;
+    CutChange change;
     change.removed[l] = both;
     change.added[l] = {{{a, d, c}, piece.parent}, {{d, b, c}, piece.parent}};
     return make(change);
   }
 
-  // ---- check and make
-  // ---------------------------------------------------------------------------------------------------
-
-  bool make(const Change& change) {
-    if (!improves_shape(change) || !stays_valid(change)) return false;
-    apply(change);
-    return true;
-  }
-
-  /// Altitude over longest edge, 0.87 at best; negative if turned over against the normal.
-  double quality(const Corners& c, const Change& change, const Vec3& normal, bool after) const {
-    std::array<Vec3, 3> x;
-    for (int k = 0; k < 3; ++k)
-      x[k] = after && c[k] == change.moved ? change.to : at(c[k]);
-    const Vec3 area = area_vector2(x[0], x[1], x[2]);
-    const double longest =
-        std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
-    if (longest == 0) return 0;
-    const double q = area.norm() / longest;
-    return area.dot(normal) > 0.5 * area.norm() * normal.norm() ? q : -q;
-  }
-
-  bool improves_shape(const Change& change) const {
-    double before = 1, after = 1;
-    for (const int l : {surface_layer, sheet_layer}) {
-      const TriMesh& mesh = l == surface_layer ? surface_ : sheet_;
-      for (const std::size_t p : change.removed[l])
-        before = std::min(
-            before, quality(layers_[l][p].corners, change, area_vector(mesh, layers_[l][p].parent), false));
-      for (const Piece& p : change.added[l])
-        after = std::min(after, quality(p.corners, change, area_vector(mesh, p.parent), true));
-    }
-    // a node less is a gain in itself, though other short edges beside it may still wait for their turn
-    const double gain = !change.gone.empty() ? 0.3 : 1 + 1e-6;
-    return after > 0 && after > std::max(before, 0.0) * gain;
-  }
-
-  /// Pieces around a node after the change.
-  std::vector<Corners> around_after(int l, NodeId n, const Change& change) const {
-    std::vector<Corners> result;
-    for (const std::size_t p : layers_[l].around(n))
-      if (std::find(change.removed[l].begin(), change.removed[l].end(), p) == change.removed[l].end())
-        result.push_back(layers_[l][p].corners);
-    for (const Piece& p : change.added[l])
-      if (has(p.corners, n)) result.push_back(p.corners);
-    return result;
-  }
-
-  bool is_mouth_after(NodeId a, NodeId b, const Change& change) const {
-    const Edge e(a, b);
-    const auto in = [&](const std::vector<Edge>& list) {
-      return std::find(list.begin(), list.end(), e) != list.end();
-    };
-    return in(change.mouth_added) || (is_mouth(a, b) && !in(change.mouth_removed));
-  }
-
-  /// Every node touched: closed fan of surface pieces, one fan of sheet pieces that starts and ends as
-  /// before.
-  bool stays_valid(const Change& change) const {
-    std::vector<NodeId> touched;
-    for (const int l : {surface_layer, sheet_layer}) {
-      for (const std::size_t p : change.removed[l])
-        touched.insert(touched.end(), layers_[l][p].corners.begin(), layers_[l][p].corners.end());
-      for (const Piece& p : change.added[l])
-        touched.insert(touched.end(), p.corners.begin(), p.corners.end());
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    return std::all_of(touched.begin(), touched.end(), [&](NodeId n) {
-      return std::find(change.gone.begin(), change.gone.end(), n) != change.gone.end() ||
-             node_valid(n, change);
-    });
-  }
-
-  bool node_valid(NodeId n, const Change& change) const {
-    const auto surface = around_after(surface_layer, n, change), sheet = around_after(sheet_layer, n, change);
-    if (surface.empty() && sheet.empty()) return false;
-    if (!surface.empty() && open_ends(n, surface) != 0) return false;
-    if (sheet.empty() != layers_[sheet_layer].around(n).empty() && sheet.empty()) return false;
-    const int ends = sheet.empty() ? 0 : open_ends(n, sheet);
-    if (ends != 0 && ends != 2) return false;
-    // mouth edges: two surface pieces and one sheet piece; other sheet edges are not in the surface
-    std::vector<NodeId> mouth;
-    for (const NodeId x : mouth_[n])
-      if (is_mouth_after(n, x, change)) mouth.push_back(x);
-    for (const Edge& e : change.mouth_added)
-      if (e.a == n || e.b == n) mouth.push_back(e.a == n ? e.b : e.a);
-    std::sort(mouth.begin(), mouth.end());
-    if (std::adjacent_find(mouth.begin(), mouth.end()) != mouth.end() ||
-        mouth.size() > std::max<std::size_t>(2, mouth_[n].size()))
-      return false;
-    const auto uses = [](const std::vector<Corners>& pieces, NodeId x) {
-      return std::count_if(pieces.begin(), pieces.end(), [&](const Corners& c) { return has(c, x); });
-    };
-    for (const NodeId x : mouth)
-      if (uses(surface, x) != 2 || uses(sheet, x) != 1) return false;
-    for (const Corners& c : sheet)
-      for (const NodeId x : c)
-        if (x != n && !std::binary_search(mouth.begin(), mouth.end(), x) && uses(surface, x) != 0)
-          return false;
-    return true;
-  }
-
-  /// Number of open ends (0 or 2) if the pieces form one fan around n, else −1.
-  static int open_ends(NodeId n, const std::vector<Corners>& pieces) {
-    std::vector<std::pair<NodeId, NodeId>> link;
-    for (const Corners& c : pieces) {
-      const int k = c[0] == n ? 0 : c[1] == n ? 1 : 2;
-      link.emplace_back(c[(k + 1) % 3], c[(k + 2) % 3]);
-    }
-    const auto find = [&](NodeId from) {
-      return std::find_if(link.begin(), link.end(), [&](const auto& l) { return l.first == from; });
-    };
-    for (const auto& l : link)
-      if (std::count_if(link.begin(), link.end(), [&](const auto& x) { return x.first == l.first; }) != 1 ||
-          std::count_if(link.begin(), link.end(), [&](const auto& x) { return x.second == l.second; }) != 1)
-        return -1;
-    std::size_t starts = 0;
-    NodeId start = link[0].first;
-    for (const auto& l : link)
-      if (std::none_of(link.begin(), link.end(), [&](const auto& x) { return x.second == l.first; })) {
-        start = l.first;
-        ++starts;
-      }
-    if (starts > 1) return -1;
-    std::size_t length = 0;
-    NodeId at = start;
-    for (auto l = find(at); l != link.end() && length < link.size(); l = find(at)) {
-      at = l->second;
-      ++length;
-    }
-    return length == link.size() ? static_cast<int>(2 * starts) : -1;
-  }
-
-  void apply(const Change& change) {
-    for (const int l : {surface_layer, sheet_layer}) {
-      for (const std::size_t p : change.removed[l])
-        layers_[l].remove(p);
-      for (const Piece& p : change.added[l])
-        layers_[l].add(p);
-    }
-    for (const Edge& e : change.mouth_removed) {
-      std::erase(mouth_[e.a], e.b);
-      std::erase(mouth_[e.b], e.a);
-    }
-    for (const Edge& e : change.mouth_added) {
-      mouth_[e.a].push_back(e.b);
-      mouth_[e.b].push_back(e.a);
-    }
-    if (change.moved.valid() && change.moved.index() >= cut_.surface_node_count)
-      cut_.positions[change.moved] = change.to;
-  }
-
-  void write_back() {
-    IdVector<NodeId, NodeId> renumbered(cut_.positions.size());
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < cut_.positions.size(); ++i) {
-      const NodeId n(i);
-      if (i >= cut_.surface_node_count && layers_[surface_layer].around(n).empty() &&
-          layers_[sheet_layer].around(n).empty())
-        continue;
-      renumbered[n] = NodeId(next);
-      cut_.positions[NodeId(next)] = cut_.positions[n];
-      cut_.sheet_node[NodeId(next)] = cut_.sheet_node[n];
-      ++next;
-    }
-    cut_.positions.resize(next);
-    cut_.sheet_node.resize(next);
-    cut_.mouth.clear();
-    for (std::size_t i = 0; i < mouth_.size(); ++i)
-      for (const NodeId b : mouth_[NodeId(i)])
-        if (NodeId(i) < b) cut_.mouth.emplace_back(renumbered[NodeId(i)], renumbered[b]);
-    std::sort(cut_.mouth.begin(), cut_.mouth.end());
-    write_layer(surface_layer, renumbered, cut_.surface, cut_.surface_parent);
-    write_layer(sheet_layer, renumbered, cut_.sheet, cut_.sheet_parent);
-  }
-
-  /// By parent, then by nodes: the order does not tell how the pieces came about.
-  void write_layer(int l, const IdVector<NodeId, NodeId>& renumbered, IdVector<TriId, Corners>& corners,
-                   std::vector<TriId>& parents) const {
-    const TriMesh& mesh = l == surface_layer ? surface_ : sheet_;
-    std::vector<std::size_t> count(mesh.triangle_count(), 0);
-    std::vector<Piece> pieces;
-    for (std::size_t p = 0; p < layers_[l].size(); ++p)
-      if (layers_[l].alive(p)) {
-        pieces.push_back(layers_[l][p]);
-        ++count[layers_[l][p].parent.index()];
-      }
-    for (Piece& p : pieces) {
-      for (NodeId& n : p.corners)
-        n = renumbered[n];
-      if (count[p.parent.index()] > 1)
-        std::rotate(p.corners.begin(), std::min_element(p.corners.begin(), p.corners.end()), p.corners.end());
-    }
-    std::sort(pieces.begin(), pieces.end(), [](const Piece& x, const Piece& y) {
-      if (x.parent != y.parent) return x.parent < y.parent;
-      Corners a = x.corners, b = y.corners;
-      std::sort(a.begin(), a.end());
-      std::sort(b.begin(), b.end());
-      return a < b;
-    });
-    corners.clear();
-    parents.clear();
-    for (const Piece& p : pieces) {
-      corners.push_back(p.corners);
-      parents.push_back(p.parent);
-    }
-  }
-
-  CutComplex& cut_;
-  const TriMesh& surface_;
-  const TriMesh& sheet_;
   IdVector<NodeId, SurfaceSupport> supports_;
   float merge_;
-  std::array<Layer, 2> layers_;
-  IdVector<NodeId, std::vector<NodeId>> mouth_;  ///< neighbours along the mouth
   IdVector<NodeId, double> size_;
 };
 
