@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kEqual = 1e-3;          ///< relative difference in severity that does not count
 constexpr double kPerpendicular = 1e-6;  ///< cosine below which a direction does not fix a sign
-constexpr double kEquallyRemote = 1e-6;   ///< relative difference in remoteness that does not count
+constexpr double kEquallyRemote = 1e-6;  ///< relative difference in remoteness that does not count
+constexpr double kOutward = 0.1;         ///< × radius, how far outside of the surface the disc's centre lies
 constexpr int kRings = 2;
 
 /// ±v on the positive side of the first reference that is not perpendicular to it.
@@ -39,6 +40,7 @@ CrackSite make_site(const InitiationCandidate& c, double radius) {
   site.inward = inward.normalized();
   site.side = with_fixed_sign(cross(site.normal, site.inward), references);
   site.radius = radius;
+  site.center -= kOutward * radius * site.inward;  // no node of the disc lies in the surface itself
   site.severity = c.principal_stress / c.strength;
   return site;
 }
@@ -48,8 +50,8 @@ bool closer_than(double distance, const Vec3& x, const std::vector<Vec3>& nodes)
                      [&](const Vec3& node) { return (node - x).squaredNorm() < distance * distance; });
 }
 
-/// Among the candidates within 0.1 % of the most severe the least remote, of these the one with the lowest triangle id; end if
-/// there is none.
+/// Among the candidates within 0.1 % of the most severe the least remote, of these the one with the lowest
+/// triangle id; end if there is none.
 auto next_candidate(const std::vector<InitiationCandidate>& left) {
   const auto severity = [](const InitiationCandidate& c) { return c.principal_stress / c.strength; };
   double largest = 0;

@@ -17,8 +17,8 @@ struct InitiationCandidate {
   TriId triangle;           ///< decides between equals, the lowest first
   std::array<Vec3, 3>
       corners;  ///< of the triangle, in ascending order of their node ids: fixes signs (see CrackSite)
-  double remoteness = 0;  ///< [m] of two equally severe candidates the one with less of it goes first (differences below 1e-6 do
-                          ///< not count), e.g. the distance from the body's centre
+  double remoteness = 0;  ///< [m] of two equally severe candidates the one with less of it goes first
+                          ///< (differences below 1e-6 do not count), e.g. the distance from the body's centre
 };
 
 /// A new crack: a disc around a point of the surface, normal to σ₁.
@@ -28,7 +28,7 @@ struct InitiationCandidate {
 /// where the disc lies along the surface (σ₁ normal to it) the direction of the first corner takes its place.
 struct CrackSite {
   TriId triangle;
-  Vec3 center;
+  Vec3 center;      ///< a tenth of the radius outside of the surface
   Vec3 normal;      ///< unit
   Vec3 inward;      ///< unit, ⟂ normal, into the body
   Vec3 side;        ///< unit, ⟂ both: normal × inward or its opposite

@@ -7,11 +7,13 @@ namespace conchoid {
 SifSettings sif_settings(const RunSpec& run) {
   SifSettings s;
   s.method = run.sif == SifSource::two_point ? SifMethod::two_point : SifMethod::one_point;
-  s.convention = run.sif_convention == OpeningConvention::full ? SifConvention::full_opening : SifConvention::half_opening;
+  s.convention = run.sif_convention == OpeningConvention::full ? SifConvention::full_opening
+                                                               : SifConvention::half_opening;
   return s;
 }
 
-BemOpening::BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif, const BemSettings& bem)
+BemOpening::BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
+                       const BemSettings& bem)
     : body_(setup.surface, setup.data, m, setup.ambient, bem), m_(m), sif_(sif) {}
 
 void BemOpening::solve(const CutComplex& cut) {
@@ -35,9 +37,9 @@ std::vector<FrontOpening> BemOpening::open(const CrackState& crack) {
     o.node_intensity = o.intensity;
     if (behind.valid() && point.distance > 0) {
       o.opening = body_.opening()[behind];
-      o.node_intensity = stress_intensity({o.opening.dot(point.frame.e1), o.opening.dot(point.frame.e2),
-                                           o.opening.dot(point.frame.e3)},
-                                          point.distance, m_, sif_.convention);
+      o.node_intensity = stress_intensity(
+          {o.opening.dot(point.frame.e1), o.opening.dot(point.frame.e2), o.opening.dot(point.frame.e3)},
+          point.distance, m_, sif_.convention);
     }
     out.push_back(o);
   }

@@ -18,9 +18,9 @@
 namespace conchoid {
 namespace {
 
-constexpr double kOnSurface = 1e-3;       // of a crack edge: nearer than this to the surface lies on it
-constexpr double kStickOut = 0.35;        // of a crack edge: how far a sheet that ends on the surface is extended
-constexpr double kEdgesPerSize = 10;      // default resolution
+constexpr double kOnSurface = 1e-3;   // of a crack edge: nearer than this to the surface lies on it
+constexpr double kStickOut = 0.35;    // of a crack edge: how far a sheet that ends on the surface is extended
+constexpr double kEdgesPerSize = 10;  // default resolution
 
 void scale_and_move(TriMesh& mesh, double scale, const Vec3& origin) {
   for (Vec3& x : mesh.positions)
@@ -103,7 +103,8 @@ TriMesh make_crack(const CrackSpec& spec, double edge) {
   return crack_from_mesh_file(spec.file);
 }
 
-// Boundary edges that lie on the surface are the mouth: the sheet is drawn out beyond it, so that it cuts the surface cleanly.
+// Boundary edges that lie on the surface are the mouth: the sheet is drawn out beyond it, so that it cuts the
+// surface cleanly.
 TriMesh stick_out(const TriMesh& sheet, const ClosestPointTree& surface) {
   std::vector<Edge> mouth;
   double length = 0;
@@ -126,8 +127,10 @@ void add_cracks(const Scene& scene, const TriMesh& model_crack, BodySetup& out) 
     if (!out.infinite()) {
       sheet = stick_out(sheet, tree);
       if (corefine(out.surface, sheet).sheet.empty())
-        throw InputError(where + ": the crack lies outside of the body; give it a place inside, in the body's coordinates "
-                                 "(body.scale changes the body, not the crack)");
+        throw InputError(
+            where +
+            ": the crack lies outside of the body; give it a place inside, in the body's coordinates "
+            "(body.scale changes the body, not the crack)");
     }
     out.cracks.push_back(std::move(sheet));
   };
@@ -135,7 +138,8 @@ void add_cracks(const Scene& scene, const TriMesh& model_crack, BodySetup& out) 
   for (const CrackSpec& spec : scene.cracks)
     add(make_crack(spec, out.crack_edge), spec.where);
   if (out.infinite() && out.cracks.empty())
-    throw InputError(scene.body.where + ": an infinite body without a crack has nothing to compute; add a [[crack]]");
+    throw InputError(scene.body.where +
+                     ": an infinite body without a crack has nothing to compute; add a [[crack]]");
 }
 
 double region_area(const TriMesh& surface, const Region& region) {
@@ -159,10 +163,12 @@ void apply_conditions(const Scene& scene, BodySetup& out) {
         for (NodeId node : out.surface.corners[t]) {
           int& by = setter[node.index()];
           if (by >= 0 && out.data.displacement[node] != condition.value)
-            throw InputError(fmt::format(
-                "{}: contradicts the condition at {}: regions '{}' and '{}' share node {} but displace it differently; "
-                "leave a strip of free surface between them",
-                condition.where, scene.boundary[by].where, condition.region, scene.boundary[by].region, node.value));
+            throw InputError(
+                fmt::format("{}: contradicts the condition at {}: regions '{}' and '{}' share node {} but "
+                            "displace it differently; "
+                            "leave a strip of free surface between them",
+                            condition.where, scene.boundary[by].where, condition.region,
+                            scene.boundary[by].region, node.value));
           by = static_cast<int>(b);
           out.data.displacement[node] = condition.value;
         }
@@ -181,17 +187,19 @@ void balance(const Scene& scene, BodySetup& out) {
   if (balanced(r, out.surface)) return;
   const std::string where = scene.boundary.empty() ? scene.file : scene.boundary.front().where;
   if (!scene.run.inertia_relief)
-    throw InputError(fmt::format(
-        "{}: the loads are out of balance (force {:.3g} {:.3g} {:.3g} N, moment {:.3g} {:.3g} {:.3g} N m) and nothing is held: "
-        "fix a region, balance them, or set run.inertia_relief = true",
-        where, r.force.x(), r.force.y(), r.force.z(), r.moment.x(), r.moment.y(), r.moment.z()));
+    throw InputError(
+        fmt::format("{}: the loads are out of balance (force {:.3g} {:.3g} {:.3g} N, moment {:.3g} {:.3g} "
+                    "{:.3g} N m) and nothing is held: "
+                    "fix a region, balance them, or set run.inertia_relief = true",
+                    where, r.force.x(), r.force.y(), r.force.z(), r.moment.x(), r.moment.y(), r.moment.z()));
   out.ambient = inertia_field(out.surface, r, scene.material.elastic());
   for (std::size_t t = 0; t < out.surface.triangle_count(); ++t) {
     const auto& c = out.surface.corners[TriId(t)];
     const Vec3 n = unit_normal(out.surface, TriId(t));
     for (int k = 0; k < 3; ++k)  // mean over the triangle, exact for the field's quadratic stress
       out.data.traction[t] -=
-          out.ambient.stress(0.5 * (out.surface.positions[c[k]] + out.surface.positions[c[(k + 1) % 3]])) * n / 3;
+          out.ambient.stress(0.5 * (out.surface.positions[c[k]] + out.surface.positions[c[(k + 1) % 3]])) *
+          n / 3;
   }
 }
 
@@ -204,7 +212,8 @@ void require_one_body(const Scene& scene, const TriMesh& surface) {
   }
   const auto bodies = std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; });
   if (bodies != 1)
-    throw InputError(fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time", scene.body.where, bodies));
+    throw InputError(fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time",
+                                 scene.body.where, bodies));
 }
 
 }  // namespace
@@ -227,7 +236,8 @@ BodySetup set_up_body(const Scene& scene) {
     apply_conditions(scene, out);
     balance(scene, out);
   } else {
-    out.ambient = uniform_stress(scene.remote_stress, scene.material.youngs_modulus, scene.material.poisson_ratio);
+    out.ambient =
+        uniform_stress(scene.remote_stress, scene.material.youngs_modulus, scene.material.poisson_ratio);
   }
   add_cracks(scene, body.model.crack, out);
   if (!(out.crack_edge > 0)) out.crack_edge = mean_boundary_edge(out.cracks.front());

@@ -9,24 +9,25 @@
 
 namespace conchoid {
 
-/// A scene made ready to compute: meshes, data and cracks, moved so that the body is centred at the origin (no figures are
-/// lost however far away it lies).
+/// A scene made ready to compute: meshes, data and cracks, moved so that the body is centred at the origin
+/// (no figures are lost however far away it lies).
 struct BodySetup {
-  Vec3 origin = Vec3::Zero();      ///< add to every position to come back to the scene's coordinates
-  TriMesh surface;                 ///< boundary element mesh; empty for the infinite body
-  TriMesh detailed;                ///< surface that the fragments show; the same unless remeshed
-  std::vector<Region> regions;     ///< of `surface`
+  Vec3 origin = Vec3::Zero();   ///< add to every position to come back to the scene's coordinates
+  TriMesh surface;              ///< boundary element mesh; empty for the infinite body
+  TriMesh detailed;             ///< surface that the fragments show; the same unless remeshed
+  std::vector<Region> regions;  ///< of `surface`
   BoundaryData data;
-  AmbientField ambient;            ///< stress at infinity, or that of inertia relief
-  std::vector<TriMesh> cracks;     ///< initial crack sheets; those that end on the surface stick out of it
-  double crack_edge = 0;           ///< r̄ [m]
-  double surface_edge = 0;         ///< h [m]
+  AmbientField ambient;         ///< stress at infinity, or that of inertia relief
+  std::vector<TriMesh> cracks;  ///< initial crack sheets; those that end on the surface stick out of it
+  double crack_edge = 0;        ///< r̄ [m]
+  double surface_edge = 0;      ///< h [m]
 
   bool infinite() const { return surface.corners.empty(); }
 };
 
-/// Builds meshes and data. Throws InputError, with the place in the scene file, for everything that is wrong with them:
-/// a mesh that is no body, regions without triangles, loads out of balance with nothing held, cracks outside of the body.
+/// Builds meshes and data. Throws InputError, with the place in the scene file, for everything that is wrong
+/// with them: a mesh that is no body, regions without triangles, loads out of balance with nothing held,
+/// cracks outside of the body.
 BodySetup set_up_body(const Scene& scene);
 
 /// The boundary element mesh alone.

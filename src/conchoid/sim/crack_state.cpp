@@ -1,12 +1,17 @@
 #include "conchoid/sim/crack_state.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "conchoid/bem/cracked_body.hpp"
+#include "conchoid/core/error.hpp"
 
 namespace conchoid {
 namespace {
+
+constexpr double kSliver = 5e-3;   // altitude over longest edge that needs no other try
+constexpr double kNothing = 1e-9;  // below it a piece has no area
 
 // Distance of x behind the front at node a: across the front's tangent.
 double distance_behind(const Vec3& front, const FrontFrame& frame, const Vec3& x) {
@@ -14,11 +19,66 @@ double distance_behind(const Vec3& front, const FrontFrame& frame, const Vec3& x
   return (d - d.dot(frame.e3) * frame.e3).norm();
 }
 
+// Smallest altitude over longest edge among the pieces of the cut.
+double worst_piece(const CutComplex& cut) {
+  double worst = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](const std::array<NodeId, 3>& c) {
+    const Vec3 &a = cut.positions[c[0]], &b = cut.positions[c[1]], &d = cut.positions[c[2]];
+    const double longest = std::max({(a - b).squaredNorm(), (b - d).squaredNorm(), (d - a).squaredNorm()});
+    const double altitude = longest > 0 ? area_vector2(a, b, d).norm() / longest : 0;
+    worst = std::min(worst, altitude);
+  };
+  for (const auto& c : cut.surface)
+    look_at(c);
+  for (const auto& c : cut.sheet)
+    look_at(c);
+  return worst;
+}
+
+IdVector<NodeId, Vec3> node_normals(const TriMesh& sheet) {
+  IdVector<NodeId, Vec3> normals(sheet.node_count(), Vec3::Zero());
+  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
+    for (NodeId node : sheet.corners[TriId(t)])
+      normals[node] += area_vector(sheet, TriId(t));
+  for (Vec3& n : normals)
+    if (n.norm() > 0) n.normalize();
+  return normals;
+}
+
+// Where the sheet runs exactly through nodes of the surface, or along one of its triangles, the pieces
+// degenerate. The boundary elements then see it displaced along its normal by a hundredth of a crack edge or
+// a few, the first that leaves no sliver.
+CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double crack_edge) {
+  CutComplex best;
+  double best_piece = -1;
+  for (double shift : {0.0, 0.01, -0.013, 0.024, -0.031, 0.045, -0.057, 0.08}) {
+    TriMesh moved = sheet;
+    if (shift != 0) {
+      const IdVector<NodeId, Vec3> normals = node_normals(sheet);
+      for (std::size_t i = 0; i < moved.node_count(); ++i)
+        moved.positions[NodeId(i)] += shift * crack_edge * normals[NodeId(i)];
+    }
+    CutComplex cut = corefine(surface, moved, {kMouthMerge});
+    const double piece = worst_piece(cut);
+    if (piece > best_piece) {
+      best = std::move(cut);
+      best_piece = piece;
+    }
+    if (best_piece > kSliver) return best;
+  }
+  if (!(best_piece > kNothing))
+    throw ComputationError(
+        "the crack runs along the surface mesh so closely that no boundary elements fit between; change "
+        "resolution.crack or remesh the body");
+  return best;
+}
+
 }  // namespace
 
-void update_crack(CrackState& state, const TriMesh& surface) {
+void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) {
   const bool infinite = surface.corners.empty();
-  state.cut = infinite ? uncut_sheet(state.sheet.mesh) : corefine(surface, state.sheet.mesh, {kMouthMerge});
+  state.cut =
+      infinite ? uncut_sheet(state.sheet.mesh) : cut_for_elements(surface, state.sheet.mesh, crack_edge);
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth);
   std::vector<char> on_mouth(state.cut.positions.size(), 0), used(state.cut.positions.size(), 0);

@@ -20,18 +20,21 @@ struct FrontPoint {
 /// The cracks of a body as they stand: the sheet as it grows, and what of it lies inside.
 struct CrackState {
   CrackSheet sheet;
-  CutComplex cut;                        ///< of the boundary element mesh
-  TriMesh trimmed;                       ///< the sheet's part inside, nodes of `cut`
-  std::vector<Front> fronts;             ///< of `trimmed`
-  IdVector<NodeId, NodeId> node_in_cut;  ///< per sheet node: its node in `cut`; invalid outside and on the surface
-  std::vector<FrontPoint> points;        ///< all coarse front nodes inside
+  CutComplex cut;             ///< of the boundary element mesh
+  TriMesh trimmed;            ///< the sheet's part inside, nodes of `cut`
+  std::vector<Front> fronts;  ///< of `trimmed`
+  IdVector<NodeId, NodeId>
+      node_in_cut;                 ///< per sheet node: its node in `cut`; invalid outside and on the surface
+  std::vector<FrontPoint> points;  ///< all coarse front nodes inside
 };
 
-/// Trims the sheet by the surface (empty: infinite body), marks its front nodes active or outside, lists the points inside.
-void update_crack(CrackState& state, const TriMesh& surface);
+/// Trims the sheet by the surface (empty: infinite body), marks its front nodes active or outside, lists the
+/// points inside.
+/// @param crack_edge  r̄ [m]
+void update_crack(CrackState& state, const TriMesh& surface, double crack_edge);
 
-/// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last ligaments at corners,
-/// narrower than a triangle. They have no node inside to read SIFs at, and run through.
+/// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last
+/// ligaments at corners, narrower than a triangle. They have no node inside to read SIFs at, and run through.
 std::vector<FrontPoint> ligament_points(const CrackState& state);
 
 /// Share of an edge's length within which mouth nodes are merged for the boundary elements.

@@ -17,7 +17,7 @@
 namespace conchoid {
 namespace {
 
-constexpr double kAlongSurface = 0.9;     // cosine between σ1 and the surface normal above which no crack starts
+constexpr double kAlongSurface = 0.9;  // cosine between σ1 and the surface normal above which no crack starts
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 
 CrackSheet initial_sheet(const BodySetup& setup) {
@@ -27,16 +27,18 @@ CrackSheet initial_sheet(const BodySetup& setup) {
   return sheet;
 }
 
-std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptions& options, BemOpening& bem, double r) {
+std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptions& options, BemOpening& bem,
+                                              double r) {
   const SifSettings sif = sif_settings(scene.run);
   if (options.method == Method::steady) return make_steady_opening(bem, scene.material, r, sif);
-  if (options.method == Method::forest) return make_forest_opening(bem, *options.forest, scene.material, r, sif);
+  if (options.method == Method::forest)
+    return make_forest_opening(bem, *options.forest, scene.material, r, sif);
   return nullptr;
 }
 
 // Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
-std::vector<InitiationCandidate> find_candidates(const BodySetup& setup, const CrackState& crack, const CrackedBody& body,
-                                                 double strength) {
+std::vector<InitiationCandidate> find_candidates(const BodySetup& setup, const CrackState& crack,
+                                                 const CrackedBody& body, double strength) {
   std::vector<char> cut(setup.surface.triangle_count(), 0);
   for (std::size_t t = 0, n = 0; t < crack.cut.surface.size(); ++t) {
     const std::size_t parent = crack.cut.surface_parent[t].index();
@@ -55,7 +57,13 @@ std::vector<InitiationCandidate> find_candidates(const BodySetup& setup, const C
     std::sort(nodes.begin(), nodes.end());
     const auto& x = setup.surface.positions;
     const Vec3 at = centroid(setup.surface, TriId(t));
-    out.push_back({at, p.value[0], p.direction.col(0), -n, strength, TriId(t), {x[nodes[0]], x[nodes[1]], x[nodes[2]]},
+    out.push_back({at,
+                   p.value[0],
+                   p.direction.col(0),
+                   -n,
+                   strength,
+                   TriId(t),
+                   {x[nodes[0]], x[nodes[1]], x[nodes[2]]},
                    (at - center).norm()});
   }
   return out;
@@ -83,8 +91,9 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
       history_(scene.material, setup_.crack_edge),
       crack_{initial_sheet(setup_), {}, {}, {}, {}, {}},
       fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = setup_.surface_edge}),
-      rayleigh_speed_(rayleigh_speed(m_, scene.material.density,
-                                     scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
+      rayleigh_speed_(rayleigh_speed(
+          m_, scene.material.density,
+          scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
   crack_.cut = whole_surface(setup_.surface);
 }
 
@@ -92,8 +101,8 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
 void FrameLoop::start_cracks(RunResult& result) {
   if (setup_.infinite() || started_ >= scene_.run.max_cracks) return;
   std::vector<Vec3> taken(crack_.sheet.mesh.positions.begin(), crack_.sheet.mesh.positions.end());
-  const auto sites = choose_sites(find_candidates(setup_, crack_, bem_.body(), scene_.material.strength), taken,
-                                  {setup_.crack_edge, 2 * setup_.crack_edge, 1});
+  const auto sites = choose_sites(find_candidates(setup_, crack_, bem_.body(), scene_.material.strength),
+                                  taken, {setup_.crack_edge, 2 * setup_.crack_edge, 1});
   for (const CrackSite& site : sites) {
     append_part(crack_.sheet, disc_sheet(site));
     ++started_;
@@ -103,7 +112,8 @@ void FrameLoop::start_cracks(RunResult& result) {
 }
 
 // What every point is about to do, its line in front.csv, and the samples that pair it with the frame before.
-std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<FrontOpening>& openings, RunResult& result) {
+std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<FrontOpening>& openings,
+                                                  RunResult& result) {
   std::vector<FrontStep> steps;
   largest_intensity_ = 0;
   for (std::size_t i = 0; i < crack_.points.size(); ++i) {
@@ -135,10 +145,11 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     }
     if (!o.in_range && !warned_) {
       warned_ = true;
-      result.document.warnings.push_back(fmt::format(
-          "frame {}: the forest is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, K_III = {:.3g} Pa√m); train it on "
-          "a database that covers such loads",
-          frame, o.intensity[0], o.intensity[1], o.intensity[2]));
+      result.document.warnings.push_back(
+          fmt::format("frame {}: the forest is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
+                      "K_III = {:.3g} Pa√m); train it on "
+                      "a database that covers such loads",
+                      frame, o.intensity[0], o.intensity[1], o.intensity[2]));
       warning(result.document.warnings.back());
     }
   }
@@ -191,7 +202,7 @@ void FrameLoop::run(RunResult& result, RunFolder* folder) {
   doc.stop = crack_.sheet.fronts.empty() ? "intact" : "frame-limit";
   if (crack_.sheet.fronts.empty()) return;
   const ToughnessField toughness = [K_c = scene_.material.toughness](const Vec3&) { return K_c; };
-  update_crack(crack_, setup_.surface);
+  update_crack(crack_, setup_.surface, setup_.crack_edge);
   for (int frame = 1; frame <= limit; ++frame) {
     if (interrupted()) {
       doc.stop = "interrupted";
@@ -216,8 +227,9 @@ void FrameLoop::run(RunResult& result, RunFolder* folder) {
     if (!predictor_) start_cracks(result);
     const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
     if (!steps.empty())
-      advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness, setup_.crack_edge);
-    if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface);
+      advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness,
+                     setup_.crack_edge);
+    if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
     record.fracture_seconds = clock.lap();
     record.crack_triangles = crack_.trimmed.triangle_count();
     record.max_K_eff = largest_intensity_;
@@ -242,7 +254,8 @@ std::vector<TriMesh> FrameLoop::fine_sheets() const {
   for (std::size_t i = 0; i < all.node_count(); ++i)
     moved[i] = sheets[part[i]].positions.add(all.positions[NodeId(i)]);
   for (const auto& c : all.corners)
-    sheets[part[c[0].index()]].corners.push_back({moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+    sheets[part[c[0].index()]].corners.push_back(
+        {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
   std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
   return sheets;
 }

@@ -25,7 +25,8 @@ class FrameLoop {
  private:
   struct Clock;
   void start_cracks(RunResult& result);
-  std::vector<FrontStep> record_and_step(int frame, const std::vector<FrontOpening>& openings, RunResult& result);
+  std::vector<FrontStep> record_and_step(int frame, const std::vector<FrontOpening>& openings,
+                                         RunResult& result);
   void write_frame(int frame, RunFolder& folder, const std::vector<FrontOpening>& openings);
 
   const Scene& scene_;
@@ -33,12 +34,12 @@ class FrameLoop {
   ElasticConstants m_;
   BodySetup setup_;
   BemOpening bem_;
-  std::unique_ptr<OpeningSource> predictor_;   // none: bem_ itself
+  std::unique_ptr<OpeningSource> predictor_;  // none: bem_ itself
   FrontHistory history_;
   CrackState crack_;
   FineFront fine_;
   double rayleigh_speed_;
-  double largest_intensity_ = 0;               // K_eff of the frame
+  double largest_intensity_ = 0;  // K_eff of the frame
   int started_ = 0;
   bool warned_ = false;
 };

@@ -11,20 +11,23 @@ namespace conchoid {
 
 struct FrontOpening;
 
-/// Remembers what each front node was like when it last was on the front, and pairs it with the front one frame later: when a
-/// front advances, its old node becomes the correlation node of the new one. One sample per such pair.
+/// Remembers what each front node was like when it last was on the front, and pairs it with the front one
+/// frame later: when a front advances, its old node becomes the correlation node of the new one. One sample
+/// per such pair.
 class FrontHistory {
  public:
-  FrontHistory(const MaterialSpec& material, double resolution) : material_(material), resolution_(resolution) {}
+  FrontHistory(const MaterialSpec& material, double resolution)
+      : material_(material), resolution_(resolution) {}
 
-  /// The sample of a point whose correlation node was on the front in the frame before; its label is left at zero.
+  /// The sample of a point whose correlation node was on the front in the frame before; its label is left at
+  /// zero.
   std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const;
   /// What is remembered of a node.
   struct Entry {
     FrontFrame frame;
-    Vec3 intensity;      ///< K from the opening of its own correlation node
-    double distance;     ///< of that node
-    int seen;            ///< frame of the sheet
+    Vec3 intensity;   ///< K from the opening of its own correlation node
+    double distance;  ///< of that node
+    int seen;         ///< frame of the sheet
   };
   const Entry* find(NodeId node) const;
   /// Remembers the points as they are now. @param openings  in the order of crack.points

@@ -15,8 +15,10 @@ namespace {
 DatabaseHeader make_header(const DatabaseSpec& spec, const GenerateOptions& options) {
   const MaterialSpec& m = spec.scene.material;
   DatabaseHeader header;
-  header.models = {spec.scene.body.model.empty() ? spec.scene.body.mesh.filename().string() : spec.scene.body.model};
-  header.material = {m.youngs_modulus, m.poisson_ratio, m.density, m.strength, m.toughness, m.compressive_factor};
+  header.models = {spec.scene.body.model.empty() ? spec.scene.body.mesh.filename().string()
+                                                 : spec.scene.body.model};
+  header.material = {m.youngs_modulus, m.poisson_ratio, m.density,
+                     m.strength,       m.toughness,     m.compressive_factor};
   header.resolution = spec.scene.resolution.crack.value_or(0);
   header.spec = spec.scene.text;
   header.seed = spec.seed;
@@ -49,8 +51,8 @@ GeneratedRun generate_run(const DatabaseSpec& spec, int run) {
     double resolution = 0;
     for (const RunSetting& s : result.document.settings)
       if (s.name == "resolution.crack") resolution = std::get<double>(s.value);
-    record.reason = exclusion_reason({record.alpha, record.frames, record.stop != "frame-limit", result.cracks,
-                                      result.largest_growth, resolution},
+    record.reason = exclusion_reason({record.alpha, record.frames, record.stop != "frame-limit",
+                                      result.cracks, result.largest_growth, resolution},
                                      spec.exclusion);
     out.samples = std::move(result.samples);
     for (std::int32_t& id : out.samples.run())

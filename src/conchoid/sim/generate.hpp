@@ -8,15 +8,15 @@
 namespace conchoid {
 
 struct GenerateOptions {
-  std::filesystem::path out;     ///< database file
-  int shard = 1, shards = 1;     ///< this program's share: runs with id ≡ shard − 1 modulo shards
-  bool resume = false;           ///< go on with what `out` holds
+  std::filesystem::path out;  ///< database file
+  int shard = 1, shards = 1;  ///< this program's share: runs with id ≡ shard − 1 modulo shards
+  bool resume = false;        ///< go on with what `out` holds
 };
 
-/// Runs the scenes of a database, one per worker thread, and keeps every finished run at once (learn/database.hpp).
-/// The database is the same for every number of threads, and after an interruption the same as without one.
-/// Throws Interrupted after Ctrl-C; what is finished is on the disk and is taken up by `resume`.
-/// A run that cannot be computed is recorded as excluded, with its message as the reason.
+/// Runs the scenes of a database, one per worker thread, and keeps every finished run at once
+/// (learn/database.hpp). The database is the same for every number of threads, and after an interruption the
+/// same as without one. Throws Interrupted after Ctrl-C; what is finished is on the disk and is taken up by
+/// `resume`. A run that cannot be computed is recorded as excluded, with its message as the reason.
 void generate_database(const DatabaseSpec& spec, const GenerateOptions& options);
 
 /// One run: its record, without samples if it is excluded by an error.

@@ -17,10 +17,10 @@ SifSettings sif_settings(const RunSpec& run);
 
 /// What is known at a front point: the opening behind it, and the SIFs that drive it.
 struct FrontOpening {
-  Vec3 opening = Vec3::Zero();          ///< Δu at the correlation node, world axes [m]
-  Vec3 intensity = Vec3::Zero();        ///< K that moves the front [Pa√m]
-  Vec3 node_intensity = Vec3::Zero();   ///< K from this opening alone (S3): what features are made of [Pa√m]
-  bool in_range = true;                 ///< false: a predictor was asked beyond its training
+  Vec3 opening = Vec3::Zero();         ///< Δu at the correlation node, world axes [m]
+  Vec3 intensity = Vec3::Zero();       ///< K that moves the front [Pa√m]
+  Vec3 node_intensity = Vec3::Zero();  ///< K from this opening alone (S3): what features are made of [Pa√m]
+  bool in_range = true;                ///< false: a predictor was asked beyond its training
 };
 
 /// The socket: where the crack opening comes from.
@@ -35,7 +35,8 @@ class OpeningSource {
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
 class BemOpening : public OpeningSource {
  public:
-  BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif, const BemSettings& bem);
+  BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
+             const BemSettings& bem);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
   /// The body as it was last solved.
@@ -49,8 +50,8 @@ class BemOpening : public OpeningSource {
   SifSettings sif_;
 };
 
-/// Frame 1 by boundary elements, then predicted: the opening of each point follows from the K which its correlation node had
-/// when it was on the front. Linear in the number of front points.
+/// Frame 1 by boundary elements, then predicted: the opening of each point follows from the K which its
+/// correlation node had when it was on the front. Linear in the number of front points.
 class PredictedOpening : public OpeningSource {
  public:
   PredictedOpening(BemOpening& first, const MaterialSpec& material, double resolution, const SifSettings& sif)
@@ -72,11 +73,12 @@ class PredictedOpening : public OpeningSource {
 };
 
 /// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
-std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material, double resolution,
-                                                   const SifSettings& sif);
+std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
+                                                   double resolution, const SifSettings& sif);
 /// A regression forest (learn/forest.hpp), which must outlive the source.
 class RegressionForest;
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, double resolution, const SifSettings& sif);
+                                                   const MaterialSpec& material, double resolution,
+                                                   const SifSettings& sif);
 
 }  // namespace conchoid

@@ -8,8 +8,8 @@ Vec3 in_frame(const FrontFrame& f, const Vec3& v) {
   return {v.dot(f.e1), v.dot(f.e2), v.dot(f.e3)};
 }
 
-// Points without a prediction of their own (their correlation node was not on the front) take the mean K of the nearest points
-// of the same front that have one.
+// Points without a prediction of their own (their correlation node was not on the front) take the mean K of
+// the nearest points of the same front that have one.
 void fill_gaps(const CrackState& crack, const std::vector<char>& known, std::vector<FrontOpening>& out) {
   const std::size_t n = out.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -43,8 +43,8 @@ class SteadyOpening : public PredictedOpening {
 
 class ForestOpening : public PredictedOpening {
  public:
-  ForestOpening(BemOpening& first, const RegressionForest& forest, const MaterialSpec& material, double resolution,
-                const SifSettings& sif)
+  ForestOpening(BemOpening& first, const RegressionForest& forest, const MaterialSpec& material,
+                double resolution, const SifSettings& sif)
       : PredictedOpening(first, material, resolution, sif), forest_(forest) {}
   std::string name() const override { return "forest"; }
 
@@ -93,7 +93,8 @@ std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
     o.opening = du[0] * before.e1 + du[1] * before.e2 + du[2] * before.e3;
     const Sample s = samples[g];
     const ElasticConstants m{s.youngs_modulus, s.poisson_ratio};
-    o.intensity = o.node_intensity = stress_intensity(in_frame(point.frame, o.opening), point.distance, m, sif_.convention);
+    o.intensity = o.node_intensity =
+        stress_intensity(in_frame(point.frame, o.opening), point.distance, m, sif_.convention);
     o.in_range = guesses[g].in_range;
     known[i] = 1;
   }
@@ -102,13 +103,14 @@ std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
   return out;
 }
 
-std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material, double resolution,
-                                                   const SifSettings& sif) {
+std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
+                                                   double resolution, const SifSettings& sif) {
   return std::make_unique<SteadyOpening>(first, material, resolution, sif);
 }
 
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, double resolution, const SifSettings& sif) {
+                                                   const MaterialSpec& material, double resolution,
+                                                   const SifSettings& sif) {
   return std::make_unique<ForestOpening>(first, forest, material, resolution, sif);
 }
 

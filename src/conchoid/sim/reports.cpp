@@ -14,7 +14,7 @@ CrackState initial_crack(const BodySetup& setup) {
   CrackState crack;
   for (const TriMesh& sheet : setup.cracks)
     append_part(crack.sheet, sheet);
-  update_crack(crack, setup.surface);
+  update_crack(crack, setup.surface, setup.crack_edge);
   return crack;
 }
 
@@ -43,7 +43,8 @@ SifReport compute_sifs(const Scene& scene) {
   bem.solve(crack.cut);
   SifReport report;
   for (const Front& front : crack.fronts) {
-    const auto K = stress_intensities(crack.trimmed, front, bem.body().opening(), scene.material.elastic(), sif);
+    const auto K =
+        stress_intensities(crack.trimmed, front, bem.body().opening(), scene.material.elastic(), sif);
     report.fronts.push_back({front.closed, {}});
     for (std::size_t i = 0; i < K.size(); ++i)
       report.fronts.back().nodes.push_back(
@@ -58,7 +59,8 @@ SifReport compute_sifs(const Scene& scene) {
 StressReport compute_stress(const Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   if (scene.body.infinite())
-    throw InputError(scene.body.where + ": the infinite body has no surface to show stress on; use a body with one");
+    throw InputError(scene.body.where +
+                     ": the infinite body has no surface to show stress on; use a body with one");
   const BodySetup setup = set_up_body(scene);
   BemOpening bem(setup, scene.material.elastic(), {}, {scene.run.quadrature_tolerance, scene.run.contact});
   bem.solve(initial_crack(setup).cut);
@@ -67,8 +69,9 @@ StressReport compute_stress(const Scene& scene) {
   const std::vector<Mat3> stress = bem.body().surface_stress();
   for (std::size_t t = 0; t < stress.size(); ++t) {
     const Vec3 principal = principal_stress(stress[t]).value;
-    report.triangles.push_back({centroid(setup.surface, TriId(t)) + setup.origin, principal,
-                                region[TriId(t)] >= 0 ? setup.regions[region[TriId(t)]].name : std::string()});
+    report.triangles.push_back(
+        {centroid(setup.surface, TriId(t)) + setup.origin, principal,
+         region[TriId(t)] >= 0 ? setup.regions[region[TriId(t)]].name : std::string()});
     report.max_principal = t == 0 ? principal[0] : std::max(report.max_principal, principal[0]);
   }
   report.seconds = seconds_since(start);

@@ -10,8 +10,8 @@ namespace conchoid {
 
 /// SIFs along the initial crack fronts; nothing grows.
 struct SifNode {
-  Vec3 position;      ///< scene coordinates [m]
-  Vec3 intensity;     ///< K_I, K_II, K_III [Pa√m]
+  Vec3 position;   ///< scene coordinates [m]
+  Vec3 intensity;  ///< K_I, K_II, K_III [Pa√m]
   FrontFrame frame;
 };
 struct SifReport {
@@ -20,8 +20,8 @@ struct SifReport {
     std::vector<SifNode> nodes;
   };
   std::vector<FrontLine> fronts;
-  std::size_t triangles = 0;     ///< of the cracks inside the body
-  double opened_volume = 0;      ///< ∫ n·Δu over the cracks [m³]
+  std::size_t triangles = 0;  ///< of the cracks inside the body
+  double opened_volume = 0;   ///< ∫ n·Δu over the cracks [m³]
   double seconds = 0;
 };
 SifReport compute_sifs(const Scene& scene);
@@ -29,9 +29,9 @@ SifReport compute_sifs(const Scene& scene);
 /// Stress on the surface of the body with its initial cracks.
 struct StressReport {
   struct SurfaceTriangle {
-    Vec3 centroid;        ///< scene coordinates [m]
-    Vec3 principal;       ///< σ1 ≥ σ2 ≥ σ3 [Pa]
-    std::string region;   ///< empty: in none
+    Vec3 centroid;       ///< scene coordinates [m]
+    Vec3 principal;      ///< σ1 ≥ σ2 ≥ σ3 [Pa]
+    std::string region;  ///< empty: in none
   };
   double max_principal = 0;
   std::vector<SurfaceTriangle> triangles;

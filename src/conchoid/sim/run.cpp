@@ -12,7 +12,8 @@
 namespace conchoid {
 namespace {
 
-constexpr double kRunOut = 0.5;  // × r̄: how far a crack that separates the coarse body is run on through the detailed one
+constexpr double kRunOut =
+    0.5;  // × r̄: how far a crack that separates the coarse body is run on through the detailed one
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -29,7 +30,8 @@ TriMesh join(const std::vector<TriMesh>& sheets) {
     const std::size_t first = all.node_count();
     all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
     for (const auto& c : sheet.corners)
-      all.corners.push_back({NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
+      all.corners.push_back(
+          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
   }
   return all;
 }
@@ -103,12 +105,13 @@ void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& optio
   doc.scene_text = scene.text;
   doc.method = name(options.method);
   const BodySetup& setup = loop.setup();
-  doc.settings = {{"resolution.crack", setup.crack_edge},
-                  {"resolution.surface", setup.surface_edge},
-                  {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
-                  {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
-                  {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
-                  {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")}};
+  doc.settings = {
+      {"resolution.crack", setup.crack_edge},
+      {"resolution.surface", setup.surface_edge},
+      {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
+      {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
+      {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
+      {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")}};
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
   if (setup.infinite()) return;
   Box box = bounding_box(setup.detailed);

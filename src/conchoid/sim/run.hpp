@@ -32,18 +32,18 @@ struct RunOptions {
 /// What a run gives, in the scene's coordinates.
 struct RunResult {
   RunDocument document;
-  TriMesh crack;                      ///< fine crack surface, trimmed to the body
-  std::vector<Fragment> fragments;    ///< largest first
-  std::vector<FrontRow> front;        ///< every front point of every frame
-  SampleSet samples;                  ///< of a BEM run: front elements paired over two frames
-  int cracks = 0;                     ///< that started or were there
-  double largest_growth = 0;          ///< farthest that any front has travelled [m]
+  TriMesh crack;                    ///< fine crack surface, trimmed to the body
+  std::vector<Fragment> fragments;  ///< largest first
+  std::vector<FrontRow> front;      ///< every front point of every frame
+  SampleSet samples;                ///< of a BEM run: front elements paired over two frames
+  int cracks = 0;                   ///< that started or were there
+  double largest_growth = 0;        ///< farthest that any front has travelled [m]
 };
 
-/// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is separated or the frame
-/// limit is reached; then cut the body. document.stop says which: "arrested", "separated", "frame-limit", "intact" (nothing
-/// cracked) or "interrupted" (Ctrl-C: what was computed is kept and written).
-/// Same scene, same bits: for every number of threads, with a folder or without.
+/// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
+/// separated or the frame limit is reached; then cut the body. document.stop says which: "arrested",
+/// "separated", "frame-limit", "intact" (nothing cracked) or "interrupted" (Ctrl-C: what was computed is kept
+/// and written). Same scene, same bits: for every number of threads, with a folder or without.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 }  // namespace conchoid
