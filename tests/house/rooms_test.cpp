@@ -136,9 +136,10 @@ TEST(Headers, HeavyOnesStayInSourceFiles) {
   static const std::regex heavy(
       "^(CLI/|toml|nlohmann/|openvdb/|embree|H5|hdf5|xgboost|spdlog|tbb/|png|tiny_gltf|fmt/)");
   for (const fs::path& file : code_below(kSource / "src"))
-    if (file.extension() == ".hpp")
+    if (file.extension() == ".hpp") {
       for (const std::string& include : includes_of(file))
         EXPECT_FALSE(std::regex_search(include, heavy)) << file << " includes " << include;
+    }
 }
 
 TEST(Headers, AreIncludedOnceAndExist) {
