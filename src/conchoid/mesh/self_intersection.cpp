@@ -141,8 +141,9 @@ bool triangles_at_edge_meet(const Vec3& a, const Vec3& b, const Vec3& c, const V
   return turn(a, b, c, pr) == turn(a, b, d, pr);
 }
 
-/// Calls report(s, t), s < t, for triangles whose boxes overlap, until it returns false: sweep along the
-/// longest axis of the bounding box over boxes sorted by their low ends, in cells of a grid across it.
+/// Calls report(s, t), s < t, once for each pair of triangles whose boxes overlap, until it returns false:
+/// halves the set along its longest axis again and again; pairs across a cut are found by a sweep over those
+/// that reach it.
 class BoxPairs {
  public:
   explicit BoxPairs(const TriMesh& mesh) {
