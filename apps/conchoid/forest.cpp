@@ -151,7 +151,6 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
 
 void add_forest(CLI::App& program, Invocation& invocation) {
   CLI::App* group = program.add_subcommand("forest", "Train and look at regression forests");
-  group->require_subcommand(1);
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
   const auto add_file = [options](CLI::App* command) {

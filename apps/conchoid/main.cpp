@@ -41,7 +41,6 @@ int carry_out(const Invocation& invocation) {
 int run_program(int argc, char** argv) {
   CLI::App program("Brittle fracture by boundary elements and by prediction. Everything is SI.", "conchoid");
   program.set_version_flag("--version", CONCHOID_VERSION);
-  program.require_subcommand(1);
   program.footer(
       "Exit status: 0 done, 1 the computation failed, 2 bad usage or bad input.\n"
       "conchoid COMMAND --help tells more; conchoid help-scene lists the keys of a scene.");
@@ -61,6 +60,11 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const int status = program.exit(error, std::cout, std::cerr);
     return status == 0 ? kDone : kBadInput;
+  }
+  if (!invocation.action) {
+    const auto chosen = program.get_subcommands();
+    std::cerr << "error: a command is missing\n" << (chosen.empty() ? program : *chosen.front()).help();
+    return kBadInput;
   }
   return carry_out(invocation);
 }

@@ -60,6 +60,7 @@ Database small_database() {
     record.id = run;
     record.frames = 2;
     record.stop = "separated";
+    record.samples = 10;
     for (int node = 0; node < 10; ++node) {
       Sample sample;
       sample.run = run;
@@ -153,7 +154,8 @@ const std::vector<std::string> kTrain = {"forest", "train", "broken.h5", "--out"
 
 const std::vector<BadInput> kBadInputs = {
     // usage
-    {"no_command", nothing, {}, {"subcommand"}},
+    {"no_command", nothing, {}, {"command is missing", "run"}},
+    {"no_database_command", nothing, {"database"}, {"command is missing", "generate"}},
     {"unknown_command", nothing, {"rune", "scene.toml"}, {"rune"}},
     {"unknown_option", scene(kCube), {"run", "scene.toml", "--metod", "bem"}, {"--metod"}},
     {"missing_scene_argument", nothing, {"run"}, {"SCENE"}},
@@ -239,7 +241,7 @@ const std::vector<BadInput> kBadInputs = {
      mesh_scene(
          changed([](TriMesh& m) { m.positions[NodeId(5)].y() = std::numeric_limits<double>::quiet_NaN(); })),
      kMesh,
-     {"body.off", "5"}},
+     {"body.off", "line 8"}},
     {"mesh_zero_volume",
      mesh_scene(changed([](TriMesh& m) {
        for (Vec3& x : m.positions)
@@ -318,7 +320,7 @@ const std::vector<BadInput> kBadInputs = {
     {"run_out_foreign_folder",
      scene(kCube + kHeld + kPulled),
      {"run", "scene.toml", "--out", "."},
-     {"another"}},
+     {"new folder"}},
 
     // databases
     {"database_missing", nothing, {"database", "info", "no.h5"}, {"no.h5"}},
