@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <map>
 
 #include "conchoid/core/error.hpp"
@@ -113,32 +114,40 @@ TriMesh nudged(TriMesh sheet, double share) {
   return sheet;
 }
 
-std::vector<Piece> cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
-                                  double minimum_volume) {
+struct CutPieces {
+  std::vector<Piece> pieces;
+  bool clean;  ///< nowhere do sheet and surface pass through each other
+};
+
+CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
+                         double minimum_volume) {
   const CutComplex cut = corefine(piece.mesh, sheet);
-  if (cut.sheet.empty() && cut.mouth.empty()) return {piece};
+  if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
   Shells shells = glue(cut);
   const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
   if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
-  return separate(cut, shells, piece, first_sheet_triangle);
+  return {separate(cut, shells, piece, first_sheet_triangle), shells.overlaps == 0};
 }
 
 /// Earlier cuts have left rounded nodes: where faces of theirs overlap by round-off, a sheet may not find a
-/// way through. Then it is moved by far less than any visible size.
+/// clean way through. Then it is moved by far less than any visible size.
 std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
                              double minimum_volume) {
-  constexpr std::array nudges{1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
-  try {
-    return cut_piece_once(piece, sheet, first_sheet_triangle, minimum_volume);
-  } catch (const ComputationError&) {
-    for (const double share : nudges)
-      try {
-        return cut_piece_once(piece, nudged(sheet, share), first_sheet_triangle, minimum_volume);
-      } catch (const ComputationError&) {
-        continue;
-      }
-    throw;
-  }
+  constexpr std::array shares{0.0, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
+  std::vector<Piece> fallback;
+  std::exception_ptr failure;
+  for (const double share : shares)
+    try {
+      CutPieces cut = share == 0
+                          ? cut_piece_once(piece, sheet, first_sheet_triangle, minimum_volume)
+                          : cut_piece_once(piece, nudged(sheet, share), first_sheet_triangle, minimum_volume);
+      if (cut.clean) return std::move(cut.pieces);
+      if (fallback.empty()) fallback = std::move(cut.pieces);
+    } catch (const ComputationError&) {
+      failure = std::current_exception();
+    }
+  if (fallback.empty()) std::rethrow_exception(failure);
+  return fallback;
 }
 
 }  // namespace

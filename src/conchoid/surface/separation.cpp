@@ -114,6 +114,12 @@ class Gluing {
       glue(turned(h[0]), turned(other));
     } else if (two && n == 2) {
       glue(h[0], h[1]);
+    } else if (two && n == 4) {
+      ++shells_.overlaps;
+      glue_edge(h, 2);
+      const HalfEdge other = h[3].along != h[2].along ? h[3] : turned(h[3]);
+      glue(h[2], other);
+      glue(turned(h[2]), turned(other));
     } else if (two && n == 3) {
       const HalfEdge back = turned(h[2]);
       for (const HalfEdge& x : {h[0], h[1]})

@@ -23,6 +23,7 @@ struct Shells {
   std::vector<std::array<std::int32_t, 3>> vertex;  ///< per face: glued vertices, numbered from 0
   std::vector<std::int32_t> solid;  ///< per face: which piece of the body it bounds; −1 if not present
   std::size_t vertex_count = 0;
+  std::size_t overlaps = 0;    ///< edges where surface and sheet pass through each other without a joint
   std::vector<double> volume;  ///< per solid [m³]
 
   /// The other side of a sheet face.
@@ -34,6 +35,9 @@ struct Shells {
 /// Glues the complex; sheet pieces marked in `left_out` (empty: none) are treated as uncut material.
 /// Shells that enclose no material of their own (cavities, cracks that reach no surface) belong to the solid
 /// around them.
+/// Where round-off has made parts of the surface overlap, the sheet may lie inside on both sides of a mouth
+/// edge; there it passes through
+/// (`overlaps`): the shells stay closed, but some that should be apart may hang together.
 /// @throws ComputationError if an edge does not have two surface pieces or none
 Shells glue(const CutComplex& cut, const std::vector<bool>& left_out = {});
 
