@@ -68,9 +68,10 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
     options.forest = &*forest;
   }
   std::optional<RunDocument> document = finished_run(command, scene, options);
-  if (!document) document = run_scene(scene, options).document;
-  for (const std::string& text : document->warnings)
-    warning(text);
+  if (document)
+    message(command.out + ": finished already; reported again");
+  else
+    document = run_scene(scene, options).document;
   print(common.json ? run_json(*document, RunJson::report) : report_text(*document));
   if (document->stop == "interrupted")
     throw Interrupted("stopped on request; what was computed so far has been kept");
