@@ -1,0 +1,231 @@
+#include <Eigen/Cholesky>
+#include <optional>
+#include <random>
+
+#include "conchoid/bem/body_blocks.hpp"
+#include "conchoid/bem/bordered_cholesky.hpp"
+#include "conchoid/bem/cracked_body.hpp"
+#include "conchoid/crack/sheet.hpp"
+#include "conchoid/mesh/models.hpp"
+#include "crack/crack_samples.hpp"
+#include "side_by_side.hpp"
+
+namespace conchoid::bench {
+namespace {
+
+const ElasticConstants kGlassy{3.1e9, 0.327};
+
+enum class BodyKind { cube, thousand };
+
+/// The built-in cube (120 triangles) or a box of 972.
+TriMesh body_mesh(BodyKind kind) {
+  return kind == BodyKind::cube ? built_in_model("cube").mesh : box_mesh({1, 1, 1}, 9, 9, 9);
+}
+
+enum class Support { pulled, held };
+
+/// Pulled at z+, and at z- pulled the other way or held.
+BoundaryData load(const TriMesh& mesh, Support support) {
+  BoundaryData data = free_surface(mesh);
+  const Box box = bounding_box(mesh);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double z = centroid(mesh, TriId(t)).z();
+    if (z == box.high.z()) data.traction[t] = {0, 0, 1e8};
+    if (z != box.low.z()) continue;
+    if (support == Support::held)
+      data.kind[t] = BoundaryKind::displacement;
+    else
+      data.traction[t] = {0, 0, -1e8};
+  }
+  return data;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference = std::max(difference, std::abs(a[i] - b[i]));
+    size = std::max(size, std::abs(b[i]));
+  }
+  return difference / size;
+}
+
+// All blocks at the default tolerance against 1e-10.
+void assembly(benchmark::State& state, BodyKind kind, Support support) {
+  const TriMesh mesh = body_mesh(kind);
+  const BoundaryData data = load(mesh, support);
+  BodyBlocks fast, slow;
+  const auto assemble = [&](double tolerance, BodyBlocks& out) {
+    return seconds([&] { out = assemble_body(mesh, data, kGlassy, PairIntegrator(tolerance)); });
+  };
+  const Times t = side_by_side(
+      state, [&] { return assemble(BemSettings{}.quadrature_tolerance, fast); },
+      [&] { return assemble(1e-10, slow); });
+  const auto n = static_cast<double>(mesh.triangle_count());
+  state.counters["triangles"] = n;
+  state.counters["pairs_per_s"] = n * (n + 1) / 2 / t.fast;
+  state.counters["worst_difference"] = largest_difference(fast.D.data, slow.D.data);
+}
+
+// Assembled and factored; the slow way assembles at 1e-10. Goal for about 1,000 triangles on two cores: 3 s.
+void body_ready(benchmark::State& state, BodyKind kind, Support support) {
+  const TriMesh mesh = body_mesh(kind);
+  const BoundaryData data = load(mesh, support);
+  const auto make = [&](double tolerance) {
+    return seconds([&] { CrackedBody(mesh, data, kGlassy, {}, {tolerance, true}); });
+  };
+  const Times t = side_by_side(
+      state, [&] { return make(BemSettings{}.quadrature_tolerance); }, [&] { return make(1e-10); });
+  state.counters["triangles"] = static_cast<double>(mesh.triangle_count());
+  if (kind == BodyKind::thousand) state.SetLabel(t.fast < 3 ? "goal 3 s: met" : "goal 3 s: missed");
+}
+
+Eigen::MatrixXd random_spd(Eigen::Index n) {
+  std::mt19937_64 random(7);
+  Eigen::MatrixXd a(n, n);
+  for (double& v : a.reshaped())
+    v = static_cast<double>(random() >> 11) * 0x1.0p-53 - 0.5;
+  return a * a.transpose() + static_cast<double>(n) * Eigen::MatrixXd::Identity(n, n);
+}
+
+std::vector<double> row_major(const Eigen::MatrixXd& a) {
+  std::vector<double> out(static_cast<std::size_t>(a.size()));
+  Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(out.data(), a.rows(), a.cols()) = a;
+  return out;
+}
+
+void factorisation(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  const Eigen::MatrixXd a = random_spd(n);
+  const std::vector<double> rows = row_major(a);
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1, 1), exact = x;
+  bool definite = true;
+  const Times t = side_by_side(
+      state,
+      [&] {
+        BorderedCholesky factor;
+        const double time = seconds([&] { definite = factor.append({}, rows); });
+        x = Eigen::VectorXd::LinSpaced(n, -1, 1);
+        factor.solve(x.data());
+        return time;
+      },
+      [&] {
+        std::optional<Eigen::LLT<Eigen::MatrixXd>> factor;
+        const double time = seconds([&] { factor.emplace(a); });
+        exact = factor->solve(Eigen::VectorXd::LinSpaced(n, -1, 1));
+        return time;
+      });
+  if (!definite) return state.SkipWithError("not positive definite");
+  state.counters["gflops"] = std::pow(static_cast<double>(n), 3) / 3 / t.fast * 1e-9;
+  state.counters["worst_difference"] = (x - exact).norm() / exact.norm();
+}
+
+// A ring of 90 unknowns appended to a factor of 1,500 against the whole of it anew.
+void appended_ring(benchmark::State& state) {
+  constexpr Eigen::Index n = 1500, m = 90;
+  const Eigen::MatrixXd a = random_spd(n + m);
+  const std::vector<double> whole = row_major(a), first = row_major(a.topLeftCorner(n, n)),
+                            coupling = row_major(a.bottomLeftCorner(m, n)),
+                            diagonal = row_major(a.bottomRightCorner(m, m));
+  BorderedCholesky grown;
+  bool definite = grown.append({}, first);
+  side_by_side(
+      state,
+      [&] {
+        grown.truncate(n);
+        return seconds([&] { definite = grown.append(coupling, diagonal) && definite; });
+      },
+      [&] {
+        BorderedCholesky anew;
+        return seconds([&] { definite = anew.append({}, whole) && definite; });
+      });
+  if (!definite) state.SkipWithError("not positive definite");
+}
+
+struct GrowingCrack {
+  CutComplex before, after;
+};
+
+// A disc of five rings across the cube's face x-, and what one advance of all its front makes of it.
+GrowingCrack growing_crack(const TriMesh& surface) {
+  CrackSheet sheet;
+  append_part(sheet, testing::transformed(testing::disc(0.3, 5), Mat3::Identity(), {-0.49, 0.013, 0.017}));
+  GrowingCrack out;
+  out.before = corefine(surface, sheet.mesh, {0.1});
+  std::vector<FrontMotion> motions;
+  const auto frames = front_frames(sheet, sheet.fronts[0]);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    motions.push_back({sheet.fronts[0].nodes[i], 0.06 * frames[i].e2});
+  advance(sheet, motions, 0.06, {.smoothing = 0});
+  out.after = corefine(surface, sheet.mesh, {0.1});
+  return out;
+}
+
+// The crack grown by a ring: appended to a body that has it already, against a body and crack made anew.
+void grown_crack(benchmark::State& state, BodyKind kind) {
+  const TriMesh mesh = body_mesh(kind);
+  const BoundaryData data = load(mesh, Support::pulled);
+  const GrowingCrack crack = growing_crack(mesh);
+  CrackedBody body(mesh, data, kGlassy);
+  std::optional<CrackedBody> anew;
+  AppendStatistics statistics;
+  side_by_side(
+      state,
+      [&] {
+        body.set_crack(crack.before);
+        const double time = seconds([&] { body.set_crack(crack.after); });
+        statistics = body.statistics();
+        return time;
+      },
+      [&] {
+        return seconds([&] {
+          anew.emplace(mesh, data, kGlassy);
+          anew->set_crack(crack.after);
+        });
+      });
+  body.solve();
+  anew->solve();
+  double difference = 0, largest = 0;
+  for (std::size_t i = 0; i < body.opening().size(); ++i) {
+    difference = std::max(difference, (body.opening()[NodeId(i)] - anew->opening()[NodeId(i)]).norm());
+    largest = std::max(largest, anew->opening()[NodeId(i)].norm());
+  }
+  state.counters["functions"] = static_cast<double>(statistics.functions);
+  state.counters["assembled"] = static_cast<double>(statistics.assembled);
+  state.counters["refactored"] = static_cast<double>(statistics.refactored);
+  state.counters["worst_difference"] = difference / largest;
+}
+
+}  // namespace
+
+BENCHMARK_CAPTURE(assembly, cube, BodyKind::cube, Support::pulled)
+    ->Iterations(5)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, cube_held, BodyKind::cube, Support::held)
+    ->Iterations(5)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(assembly, box_972, BodyKind::thousand, Support::pulled)
+    ->Iterations(2)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(body_ready, box_972, BodyKind::thousand, Support::pulled)
+    ->Iterations(2)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(body_ready, box_972_held, BodyKind::thousand, Support::held)
+    ->Iterations(2)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(factorisation)->Arg(1500)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(appended_ring)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(grown_crack, cube, BodyKind::cube)
+    ->Iterations(3)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(grown_crack, box_972, BodyKind::thousand)
+    ->Iterations(1)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace conchoid::bench

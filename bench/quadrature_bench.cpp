@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <vector>
+
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/quadrature/cases.hpp"
+#include "quadrature/oracle.hpp"
+#include "quadrature/pair_table.hpp"
+#include "side_by_side.hpp"
+
+// Pairs per second of the product against adaptive integration of the closed-form potential, both to 1e-6.
+
+namespace conchoid::bench {
+namespace {
+
+constexpr double kTolerance = 1e-6;
+enum class Layout { far, common_edge, common_vertex, near };
+
+struct Pair {
+  Panel x, y;
+};
+
+// Pairs of a sphere's 320 triangles that the far rules take, every 97th of them.
+std::vector<Pair> far_pairs_of_a_sphere() {
+  const TriMesh sphere = icosphere(1, 2);
+  std::vector<Panel> panels;
+  for (std::size_t t = 0; t < sphere.triangle_count(); ++t)
+    panels.push_back(make_panel(sphere.triangle(TriId(t)), sphere.corners[TriId(t)]));
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < panels.size() * panels.size(); i += 97) {
+    const Panel &x = panels[i / panels.size()], &y = panels[i % panels.size()];
+    if (shared_corners(x, y).count == 0 && far_degrees(Layer::single, x, y, kTolerance).enough())
+      pairs.push_back({x, y});
+  }
+  return pairs;
+}
+
+std::vector<Pair> pairs_of(Layout layout) {
+  if (layout == Layout::far) return far_pairs_of_a_sphere();
+  std::vector<Pair> pairs;
+  for (const auto& p : layout == Layout::common_edge     ? oracle::common_edge_pairs()
+                       : layout == Layout::common_vertex ? oracle::common_vertex_pairs()
+                                                         : oracle::near_pairs())
+    pairs.push_back({p.x, p.y});
+  return pairs;
+}
+
+// The oracle takes every `stride`-th pair.
+template <class Fast, class Slow, class Error>
+void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast fast, Slow slow,
+                   Error error) {
+  const std::size_t stride = pairs.size() > 100 ? 50 : 1;
+  const std::size_t taken = (pairs.size() + stride - 1) / stride;
+  const double share = static_cast<double>(taken) / static_cast<double>(pairs.size());
+  const std::size_t rounds = pairs.size() > 100 ? 1 : 20;  // of the fast path: enough to be timed
+  const Times t = side_by_side(
+      state,
+      [&] {
+        return seconds([&] {
+                 for (std::size_t round = 0; round < rounds; ++round)
+                   for (const Pair& p : pairs)
+                     benchmark::DoNotOptimize(fast(p));
+               }) /
+               static_cast<double>(rounds);
+      },
+      [&] {
+        return seconds([&] {
+          for (std::size_t i = 0; i < pairs.size(); i += stride)
+            benchmark::DoNotOptimize(slow(pairs[i]));
+        });
+      },
+      share);
+  double worst = 0;
+  for (std::size_t i = 0; i < pairs.size(); i += stride)
+    worst = std::max(worst, error(pairs[i]));
+  const auto n = static_cast<double>(pairs.size());
+  state.counters["pairs_per_s"] = n / t.fast;
+  state.counters["oracle_pairs_per_s"] = n / t.slow;
+  state.counters["worst_error"] = worst;
+}
+
+void single_layer(benchmark::State& state, Layout layout) {
+  const PairIntegrator integrator(kTolerance);
+  const auto fast = [&](const Pair& p) { return integrator.single_layer(p.x, p.y); };
+  const auto slow = [](const Pair& p) { return oracle::single_layer(p.x, p.y, kTolerance); };
+  compare_pairs(state, pairs_of(layout), fast, slow, [&](const Pair& p) {
+    return oracle::relative_error(oracle::family(fast(p)), oracle::single_layer(p.x, p.y, 1e-10));
+  });
+}
+
+void double_layer(benchmark::State& state, Layout layout) {
+  const PairIntegrator integrator(kTolerance);
+  const auto fast = [&](const Pair& p) { return integrator.double_layer(p.x, p.y); };
+  const auto slow = [](const Pair& p) { return oracle::double_layer(p.x, p.y, kTolerance); };
+  compare_pairs(state, pairs_of(layout), fast, slow, [&](const Pair& p) {
+    return oracle::double_layer_error(p.x, p.y, oracle::vector(fast(p)),
+                                      oracle::double_layer(p.x, p.y, 1e-10));
+  });
+}
+
+}  // namespace
+
+BENCHMARK_CAPTURE(single_layer, far, Layout::far)
+    ->Iterations(20)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, common_edge, Layout::common_edge)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, common_vertex, Layout::common_vertex)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, near, Layout::near)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(double_layer, far, Layout::far)
+    ->Iterations(20)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(double_layer, near, Layout::near)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace conchoid::bench

@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "conchoid/sim/run.hpp"
+#include "side_by_side.hpp"
+
+// Whole runs of examples/cube.toml, cut into pieces, nothing written.
+
+namespace conchoid::bench {
+namespace {
+
+Scene cube() {
+  Scene scene = read_scene(CONCHOID_SOURCE_DIR "/examples/cube.toml");
+  scene.run.max_cracks = 1;
+  return scene;
+}
+
+RunResult run(const Scene& scene, Method method) {
+  RunOptions options;
+  options.method = method;
+  options.progress = false;
+  return run_scene(scene, options);
+}
+
+void add_split(benchmark::State& state, const RunDocument& doc) {
+  state.counters["frames"] = doc.frames;
+  state.counters["opening_ms"] = 1e3 * doc.opening_seconds;
+  state.counters["fracture_ms"] = 1e3 * doc.fracture_seconds;
+  state.counters["other_ms"] = 1e3 * doc.other_seconds;
+  state.counters["pieces"] = static_cast<double>(doc.fragments.size());
+}
+
+// By boundary elements at the default tolerance, against 1e-10. Goal: 0.5 s.
+void cube_solved(benchmark::State& state) {
+  const Scene fast = cube();
+  Scene slow = fast;
+  slow.run.quadrature_tolerance = 1e-10;
+  RunResult a, b;
+  const Times t = side_by_side(
+      state, [&] { return seconds([&] { a = run(fast, Method::bem); }); },
+      [&] { return seconds([&] { b = run(slow, Method::bem); }); });
+  add_split(state, a.document);
+  if (!a.fragments.empty() && !b.fragments.empty())
+    state.counters["volume_difference"] = std::abs(a.fragments[0].volume - b.fragments[0].volume);
+  state.SetLabel((t.fast < 0.5 ? "goal 0.5 s: met, " : "goal 0.5 s: missed, ") + a.document.stop);
+}
+
+// Predicted after frame 1 without a forest ("K stays as it is"), against solved.
+void cube_predicted(benchmark::State& state) {
+  const Scene scene = cube();
+  RunResult a, b;
+  side_by_side(
+      state, [&] { return seconds([&] { a = run(scene, Method::steady); }); },
+      [&] { return seconds([&] { b = run(scene, Method::bem); }); });
+  add_split(state, a.document);
+  state.counters["opening_ratio"] =
+      b.document.opening_seconds_per_frame / a.document.opening_seconds_per_frame;
+  state.SetLabel(a.document.stop);
+}
+
+}  // namespace
+
+BENCHMARK(cube_solved)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(cube_predicted)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace conchoid::bench
