@@ -1,0 +1,88 @@
+#pragma once
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "conchoid/core/vec.hpp"
+#include "conchoid/mesh/formats.hpp"
+#include "conchoid/sim/scene.hpp"
+
+// Scenes of the tests as text, the way a user writes them.
+namespace conchoid::test {
+
+/// A folder of its own under the system's temporary folder, removed with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static std::atomic<int> count = 0;
+    path_ = std::filesystem::temp_directory_path() / fmt::format("conchoid-test-{}-{}", ::getpid(), ++count);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  /// Writes the mesh under this name and returns the file's path.
+  std::string write(const std::string& name, const TriMesh& mesh) const {
+    write_mesh(path_ / name, mesh);
+    return (path_ / name).string();
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Shortest text that reads back bit for bit.
+inline std::string text(double x) {
+  return fmt::format("{}", x);
+}
+inline std::string text(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
+
+struct Material {
+  double E = 3.1e9, nu = 0.327, strength = 7.6e7, toughness = 1e6;
+};
+
+inline std::string material_text(const Material& m = {}) {
+  return fmt::format("[material]\nyoungs_modulus = {}\npoisson_ratio = {}\nstrength = {}\ntoughness = {}\n",
+                     m.E, m.nu, m.strength, m.toughness);
+}
+inline std::string mesh_body_text(const std::string& file) {
+  return fmt::format("[body]\nmesh = '{}'\n", file);
+}
+inline std::string resolution_text(double crack, double surface) {
+  return fmt::format("[resolution]\ncrack = {}\nsurface = {}\n", crack, surface);
+}
+inline std::string half_space_text(const Vec3& normal, double offset) {
+  return fmt::format("[{}, {}, {}, {}]", normal[0], normal[1], normal[2], offset);
+}
+/// @param half_spaces  "[nx, ny, nz, d], …"
+inline std::string region_text(const std::string& name, const std::string& half_spaces) {
+  return fmt::format("[[region]]\nname = '{}'\nhalf_spaces = [{}]\n", name, half_spaces);
+}
+/// @param key  "traction", "displacement" or "force"
+inline std::string boundary_text(const std::string& region, const std::string& key, const Vec3& value) {
+  return fmt::format("[[boundary]]\nregion = '{}'\n{} = {}\n", region, key, text(value));
+}
+inline std::string remote_stress_text(const Mat3& s) {
+  return fmt::format("[remote_stress]\ntensor = [{}, {}, {}, {}, {}, {}]\n", s(0, 0), s(1, 1), s(2, 2),
+                     s(1, 2), s(0, 2), s(0, 1));
+}
+inline std::string mesh_crack_text(const std::string& file) {
+  return fmt::format("[[crack]]\nkind = 'mesh'\nfile = '{}'\n", file);
+}
+
+inline Scene scene_from_text(const std::string& text) {
+  return parse_scene(text, "scene.toml", std::filesystem::temp_directory_path());
+}
+
+}  // namespace conchoid::test
