@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <Eigen/Core>
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -79,6 +80,15 @@ inline std::string remote_stress_text(const Mat3& s) {
 }
 inline std::string mesh_crack_text(const std::string& file) {
   return fmt::format("[[crack]]\nkind = 'mesh'\nfile = '{}'\n", file);
+}
+
+/// A rotation about no axis of note, orthogonal to the last bit or two.
+inline Mat3 arbitrary_rotation() {
+  const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();
+  const Vec3 b = cross(a, Vec3(0.2, 0.9, 0.4)).normalized();
+  Mat3 rotation;
+  rotation << a, b, cross(a, b);
+  return rotation;
 }
 
 inline Scene scene_from_text(const std::string& text) {
