@@ -1,0 +1,167 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "conchoid/sim/run.hpp"
+#include "scenes.hpp"
+
+namespace conchoid {
+namespace {
+
+RunResult run(const std::string& text) {
+  RunOptions options;
+  options.progress = false;
+  return run_scene(test::scene_from_text(text), options);
+}
+
+std::string cube_text(double slope_degrees, double traction) {
+  const double a = slope_degrees * std::numbers::pi / 180;
+  const Vec3 t = traction * Vec3(std::sin(a), 0, std::cos(a));
+  return "[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+         test::boundary_text("z+", "traction", t) + test::boundary_text("z-", "traction", -t) +
+         "[run]\ninertia_relief = true\n";
+}
+
+// Normal of the crack where it started: of the plane through the front of the first frame.
+Vec3 start_normal(const RunResult& result) {
+  std::vector<Vec3> ring;
+  for (const FrontRow& row : result.front)
+    if (row.frame == 1 && row.front == 0) ring.push_back(row.position);
+  Vec3 center = Vec3::Zero(), area = Vec3::Zero();
+  for (const Vec3& x : ring)
+    center += x / static_cast<double>(ring.size());
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i)
+    area += cross(ring[i] - center, ring[i + 1] - center);
+  return area.normalized();
+}
+
+class PulledCube : public testing::TestWithParam<double> {};
+
+TEST_P(PulledCube, OneCrackSeparatesItIntoTwoPieces) {
+  const RunResult result = run(cube_text(GetParam(), 1e8));
+  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.cracks, 1);
+  ASSERT_EQ(result.fragments.size(), 2u);
+  double volume = 0;
+  for (const Fragment& f : result.fragments) {
+    EXPECT_TRUE(f.watertight);
+    EXPECT_NEAR(f.volume, enclosed_volume(f.mesh), 1e-12);
+    EXPECT_TRUE(std::count(f.face_kind.begin(), f.face_kind.end(), FaceKind::fracture) > 0);
+    volume += f.volume;
+  }
+  EXPECT_NEAR(volume, 1, 1e-9);
+  // Area of the crack: at least that of the smallest cut that could make this piece.
+  EXPECT_GT(surface_area(result.crack), 0.1);
+  const double along_pull = std::abs(start_normal(result).z());
+  if (GetParam() == 0) {
+    EXPECT_GT(along_pull, std::cos(10 * std::numbers::pi / 180));
+    EXPECT_NEAR(surface_area(result.crack), 1, 0.05);  // flat and across
+  }
+  RecordProperty("degrees_to_pull", test::text(std::acos(along_pull) * 180 / std::numbers::pi));
+  RecordProperty("smaller", test::text(result.fragments[1].volume));
+}
+
+INSTANTIATE_TEST_SUITE_P(Slopes, PulledCube, testing::Values(0.0, 45.0));
+
+TEST(WeakLoad, LeavesTheCubeIntact) {
+  const RunResult result = run(cube_text(0, 5e7));
+  EXPECT_EQ(result.document.stop, "intact");
+  EXPECT_EQ(result.cracks, 0);
+  EXPECT_EQ(result.document.frames, 0);
+  ASSERT_EQ(result.fragments.size(), 1u);
+  EXPECT_NEAR(result.fragments[0].volume, 1, 1e-12);
+  EXPECT_EQ(result.crack.triangle_count(), 0u);
+}
+
+std::string disc_text(const Mat3& stress, int frames) {
+  return "[body]\nmodel = 'infinite'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+         "[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.5\n" +
+         test::remote_stress_text(stress) + fmt::format("[run]\nframes = {}\n", frames);
+}
+
+Mat3 tension(double s) {
+  return Vec3(0, 0, s).asDiagonal();
+}
+
+TEST(Disc, BelowTheToughnessStaysAsItIs) {
+  // K_I = 2σ√(a/π) = 0.8 K_c
+  const RunResult result = run(disc_text(tension(1e6), 10));
+  EXPECT_EQ(result.document.stop, "arrested");
+  EXPECT_EQ(result.document.frames, 1);
+  EXPECT_EQ(result.largest_growth, 0);
+  for (const FrontRow& row : result.front)
+    EXPECT_EQ(row.speed, 0);
+}
+
+TEST(Disc, UnderTensionStaysAFlatDisc) {
+  const RunResult result = run(disc_text(tension(2e6), 6));
+  EXPECT_EQ(result.document.stop, "frame-limit");
+  double height = 0;
+  for (const Vec3& x : result.crack.positions)
+    height = std::max(height, std::abs(x.z()));
+  double least = 1e9, most = 0;
+  for (const FrontRow& row : result.front)
+    if (row.frame == result.document.frames) {
+      const double radius = std::hypot(row.position.x(), row.position.y());
+      least = std::min(least, radius);
+      most = std::max(most, radius);
+    }
+  EXPECT_GT(least, 0.6);
+  EXPECT_LT(most - least, 0.05 * most);
+  EXPECT_LT(height, 0.02 * most);
+  RecordProperty("least", test::text(least));
+  RecordProperty("most", test::text(most));
+  RecordProperty("height", test::text(height));
+}
+
+TEST(Disc, UnderShearKinksBySeventyDegreesWhereModeTwoIsPure) {
+  Mat3 shear = Mat3::Zero();
+  shear(0, 2) = shear(2, 0) = 3e6;
+  const RunResult result = run(disc_text(shear, 2));
+  int count = 0;
+  double farthest = 0;
+  for (const FrontRow& row : result.front) {
+    if (row.frame != 1 || std::abs(row.position.y()) > 1e-6) continue;
+    const double degrees = std::abs(row.kink_angle) * 180 / std::numbers::pi;
+    EXPECT_NEAR(degrees, 70.53, 2);
+    farthest = std::max(farthest, std::abs(degrees - 70.53));
+    EXPECT_LT(row.kink_angle * row.intensity[1], 0);  // positive K_II turns the front down
+    ++count;
+  }
+  EXPECT_EQ(count, 2);
+  RecordProperty("farthest", test::text(farthest));
+}
+
+std::string edge_cube_text(const Vec3& traction) {
+  return "[body]\nmodel = 'edge-crack-cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+         test::boundary_text("z+", "traction", traction) + test::boundary_text("z-", "traction", -traction) +
+         "[run]\nmax_cracks = 0\ninertia_relief = true\n";
+}
+
+TEST(EdgeCrackCube, OpeningModeGrowsStraightAheadThroughTheCube) {
+  const RunResult result = run(edge_cube_text({0, 0, 2e6}));
+  EXPECT_EQ(result.document.stop, "separated");
+  ASSERT_EQ(result.fragments.size(), 2u);
+  double height = 0;
+  for (const Vec3& x : result.crack.positions)
+    height = std::max(height, std::abs(x.z()));
+  EXPECT_LT(height, 0.05);
+  EXPECT_NEAR(result.fragments[0].volume, 0.5, 0.01);
+  RecordProperty("height", test::text(height));
+  RecordProperty("volume", test::text(result.fragments[0].volume));
+}
+
+TEST(EdgeCrackCube, SlidingModeTurnsAwayFromThePlane) {
+  const RunResult result = run(edge_cube_text({6e6, 0, 0}));
+  EXPECT_GT(result.largest_growth, 0.1);
+  double height = 0;
+  for (const Vec3& x : result.crack.positions)
+    height = std::max(height, std::abs(x.z()));
+  EXPECT_GT(height, 0.1);
+  RecordProperty("height", test::text(height));
+}
+
+}  // namespace
+}  // namespace conchoid
