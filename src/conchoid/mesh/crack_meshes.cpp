@@ -102,6 +102,9 @@ int middle_edges(int rings, double a, double b) {
   return static_cast<int>(std::lround(0.5 * rings * (ellipse_perimeter(a / b, 1.0) - 2 * std::numbers::pi)));
 }
 
+/// Rather more triangles than asked for than fewer than this share of them.
+constexpr double kLeastShare = 0.9;
+
 RingLattice lattice_for(double a, double b, const SheetResolution& resolution) {
   auto lattice = [&](int rings) { return RingLattice(rings, middle_edges(rings, a, b)); };
   if (resolution.edge > 0) {
@@ -114,6 +117,7 @@ RingLattice lattice_for(double a, double b, const SheetResolution& resolution) {
   auto miss = [&](int k) { return std::abs(lattice(k).triangle_count() - resolution.triangles); };
   while (miss(rings + 1) <= miss(rings))
     ++rings;
+  if (lattice(rings).triangle_count() < kLeastShare * resolution.triangles) ++rings;
   return lattice(rings);
 }
 

@@ -7,6 +7,7 @@
 
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/bem/surface_stress.hpp"
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
@@ -18,6 +19,8 @@ namespace conchoid {
 namespace {
 
 constexpr double kAlongSurface = 0.9;  // cosine between σ1 and the surface normal above which no crack starts
+constexpr double kLargestSample =
+    3;  // × r̄: beyond it linear elasticity says nothing, a piece hangs by a thread
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 
 CrackSheet initial_sheet(const BodySetup& setup) {
@@ -95,6 +98,7 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
           m_, scene.material.density,
           scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
   crack_.cut = whole_surface(setup_.surface);
+  toughness_ = [K_c = scene.material.toughness](const Vec3&) { return K_c; };
 }
 
 // One new crack at a time, where the stress as last solved exceeds the strength most.
@@ -141,7 +145,8 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     if (auto sample = predictor_ ? std::nullopt : history_.sample(crack_, point)) {
       const FrontFrame& before = history_.find(point.correlation)->frame;
       sample->opening = {o.opening.dot(before.e1), o.opening.dot(before.e2), o.opening.dot(before.e3)};
-      if (!o.opening.isZero(0)) result.samples.add(*sample);
+      const double size = o.opening.norm();
+      if (size > 0 && size < kLargestSample * setup_.crack_edge) result.samples.add(*sample);
     }
     if (!o.in_range && !warned_) {
       warned_ = true;
@@ -187,6 +192,48 @@ void FrameLoop::write_frame(int frame, RunFolder& folder, const std::vector<Fron
   folder.write_frame(frame, data);
 }
 
+// A failure in a later frame ends the run but keeps what it has: mostly a piece that hangs by a ligament too
+// thin to resolve.
+std::string FrameLoop::guarded_frame(int frame, RunResult& result, RunFolder* folder) {
+  try {
+    return compute_frame(frame, result, folder);
+  } catch (const ComputationError& error) {
+    if (frame == 1) throw;
+    result.document.warnings.push_back(
+        fmt::format("frame {}: {}; the run ends here and keeps the frames before", frame, error.what()));
+    warning(result.document.warnings.back());
+    return "singular";
+  }
+}
+
+std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* folder) {
+  RunDocument& doc = result.document;
+  Clock clock;
+  FrameRecord record;
+  record.frame = frame;
+  record.source = predictor_ && frame > 1 ? predictor_->name() : "bem";
+  record.front_nodes = crack_.points.size();
+  const std::vector<FrontOpening> openings = predictor_ ? predictor_->open(crack_) : bem_.open(crack_);
+  record.opening_seconds = clock.lap();
+  doc.frames = frame;
+  const std::vector<FrontStep> steps = record_and_step(frame, openings, result);
+  const std::size_t fronts_before = crack_.sheet.fronts.size();
+  if (folder) write_frame(frame, *folder, openings);
+  record.other_seconds = clock.lap();
+  if (!predictor_) start_cracks(result);
+  const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
+  if (!steps.empty())
+    advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge);
+  if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
+  record.fracture_seconds = clock.lap();
+  record.crack_triangles = crack_.trimmed.triangle_count();
+  record.max_K_eff = largest_intensity_;
+  doc.opening_seconds += record.opening_seconds;
+  doc.fracture_seconds += record.fracture_seconds;
+  doc.timings.push_back(record);
+  return steps.empty() && !new_crack ? "arrested" : "frame-limit";
+}
+
 void FrameLoop::run(RunResult& result, RunFolder* folder) {
   RunDocument& doc = result.document;
   const int limit = options_.frames.value_or(scene_.run.frames);
@@ -201,46 +248,15 @@ void FrameLoop::run(RunResult& result, RunFolder* folder) {
   }
   doc.stop = crack_.sheet.fronts.empty() ? "intact" : "frame-limit";
   if (crack_.sheet.fronts.empty()) return;
-  const ToughnessField toughness = [K_c = scene_.material.toughness](const Vec3&) { return K_c; };
   update_crack(crack_, setup_.surface, setup_.crack_edge);
-  for (int frame = 1; frame <= limit; ++frame) {
-    if (interrupted()) {
+  for (int frame = 1; frame <= limit && doc.stop == "frame-limit"; ++frame) {
+    if (interrupted())
       doc.stop = "interrupted";
-      break;
-    }
-    if (!setup_.infinite() && separates(crack_.cut)) {
+    else if (!setup_.infinite() && separates(crack_.cut))
       doc.stop = "separated";
-      break;
-    }
-    FrameRecord record;
-    record.frame = frame;
-    record.source = predictor_ && frame > 1 ? predictor_->name() : "bem";
-    record.front_nodes = crack_.points.size();
-    clock.lap();
-    const std::vector<FrontOpening> openings = predictor_ ? predictor_->open(crack_) : bem_.open(crack_);
-    record.opening_seconds = clock.lap();
-    doc.frames = frame;
-    std::vector<FrontStep> steps = record_and_step(frame, openings, result);
-    const std::size_t fronts_before = crack_.sheet.fronts.size();
-    if (folder) write_frame(frame, *folder, openings);
-    record.other_seconds = clock.lap();
-    if (!predictor_) start_cracks(result);
-    const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
-    if (!steps.empty())
-      advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness,
-                     setup_.crack_edge);
-    if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
-    record.fracture_seconds = clock.lap();
-    record.crack_triangles = crack_.trimmed.triangle_count();
-    record.max_K_eff = largest_intensity_;
-    doc.opening_seconds += record.opening_seconds;
-    doc.fracture_seconds += record.fracture_seconds;
-    doc.timings.push_back(record);
+    else
+      doc.stop = guarded_frame(frame, result, folder);
     if (progress) progress->advance();
-    if (steps.empty() && !new_crack) {
-      doc.stop = "arrested";
-      break;
-    }
   }
   if (doc.stop == "frame-limit" && !setup_.infinite() && separates(crack_.cut)) doc.stop = "separated";
   fine_.finish();

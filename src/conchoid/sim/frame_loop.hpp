@@ -24,6 +24,8 @@ class FrameLoop {
 
  private:
   struct Clock;
+  std::string guarded_frame(int frame, RunResult& result, RunFolder* folder);
+  std::string compute_frame(int frame, RunResult& result, RunFolder* folder);
   void start_cracks(RunResult& result);
   std::vector<FrontStep> record_and_step(int frame, const std::vector<FrontOpening>& openings,
                                          RunResult& result);
@@ -38,6 +40,7 @@ class FrameLoop {
   FrontHistory history_;
   CrackState crack_;
   FineFront fine_;
+  ToughnessField toughness_;
   double rayleigh_speed_;
   double largest_intensity_ = 0;  // K_eff of the frame
   int started_ = 0;
