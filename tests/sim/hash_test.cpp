@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/learn/forest.hpp"
+#include "conchoid/sim/run.hpp"
+#include "conchoid/study/surface_distance.hpp"
+#include "scenes.hpp"
+
+// Same scene, same bits.
+namespace conchoid {
+namespace {
+
+Scene cube() {
+  return test::scene_from_text(
+      "[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+      test::boundary_text("z+", "traction", {3e7, 1e7, 9e7}) +
+      test::boundary_text("z-", "traction", {-3e7, -1e7, -9e7}) + "[run]\ninertia_relief = true\n");
+}
+
+RunResult run(RunOptions options) {
+  options.progress = false;
+  return run_scene(cube(), options);
+}
+
+TEST(Hash, SameForOneThreadAndForTwo) {
+  set_thread_count(1);
+  const RunResult one = run({});
+  set_thread_count(2);
+  const RunResult two = run({});
+  set_thread_count(0);
+  EXPECT_EQ(one.document.stop, "separated");
+  EXPECT_EQ(one.document.hash, two.document.hash);
+  EXPECT_EQ(one.document.frames, two.document.frames);
+}
+
+TEST(Hash, SameWithAFolderWrittenAndWithout) {
+  const test::TemporaryFolder folder;
+  RunOptions options;
+  options.folder = folder.path() / "run";
+  const RunResult written = run(options);
+  EXPECT_EQ(run({}).document.hash, written.document.hash);
+  const RunData read = read_run(*options.folder);
+  EXPECT_EQ(read.document.hash, written.document.hash);
+  EXPECT_EQ(read.crack.positions.size(), written.crack.positions.size());
+  EXPECT_EQ(read.fragments.size(), written.fragments.size());
+}
+
+TEST(Hash, AnotherLoadGivesAnother) {
+  Scene other = cube();
+  other.boundary[0].value *= 1.001;
+  other.boundary[1].value *= 1.001;
+  RunOptions options;
+  options.progress = false;
+  EXPECT_NE(run_scene(other, options).document.hash, run({}).document.hash);
+}
+
+TEST(Methods, SteadyPredictionEndsAndIsRepeatable) {
+  RunOptions options;
+  options.method = Method::steady;
+  const RunResult result = run(options);
+  EXPECT_EQ(result.document.method, "steady");
+  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested" ||
+              result.document.stop == "frame-limit")
+      << result.document.stop;
+  ASSERT_GE(result.document.timings.size(), 2u);
+  EXPECT_EQ(result.document.timings[0].source, "bem");
+  EXPECT_EQ(result.document.timings[1].source, "steady");
+  EXPECT_GT(result.largest_growth, 0.2);
+  EXPECT_EQ(run(options).document.hash, result.document.hash);
+}
+
+TEST(Methods, ForestTrainedOnTheRunFollowsIt) {
+  const RunResult bem = run({});
+  ASSERT_GT(bem.samples.size(), 20u);
+  const RegressionForest forest = RegressionForest::train(
+      bem.samples, {.trees = 20, .depth = 8, .features = FeatureSet::dimensionless, .seed = 1, .bins = 64},
+      {});
+  RunOptions options;
+  options.method = Method::forest;
+  options.forest = &forest;
+  const RunResult result = run(options);
+  EXPECT_EQ(result.document.timings.at(1).source, "forest");
+  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.fragments.size(), 2u);
+  const double apart = symmetric_distance(bem.crack, result.crack, 5000).mean / std::sqrt(3.0);
+  EXPECT_LT(apart, 0.03);
+  RecordProperty("apart", test::text(apart));
+  EXPECT_EQ(run(options).document.hash, result.document.hash);
+}
+
+TEST(Methods, ForestIsAskedFor) {
+  RunOptions options;
+  options.method = Method::forest;
+  EXPECT_THROW(run(options), InputError);
+}
+
+}  // namespace
+}  // namespace conchoid
