@@ -65,14 +65,22 @@ void assemble_node_row(const Problem& p, NodeId node, const std::vector<std::pai
     const Vec3& b = out.curls[x][corner];
     if (p.loaded[x]) f += 0.5 * out.panels[x].area / 3 * p.data.traction[x];
     for (std::size_t y = 0; y < out.panels.size(); ++y) {
-      const PairBlocks blocks(p.pairs.single_layer(x, y), p.m);
       const auto& nodes = p.surface.corners[TriId(y)];
+      std::array<int, 3> column;
+      bool needed = p.loaded[y];
       for (int k = 0; k < 3; ++k) {
-        const int column = out.unknowns.displacement[nodes[k].index()];
-        if (column < 0 && !p.prescribed[nodes[k].index()]) continue;
+        column[k] = out.unknowns.displacement[nodes[k].index()];
+        needed = needed || (column[k] >= 0 ? 3 * static_cast<std::size_t>(column[k]) <= row
+                                           : p.prescribed[nodes[k].index()] != 0);
+      }
+      if (!needed) continue;
+      const PairBlocks blocks(p.pairs.single_layer(x, y), p.m);
+      for (int k = 0; k < 3; ++k) {
+        if (column[k] < 0 && !p.prescribed[nodes[k].index()]) continue;
+        if (column[k] >= 0 && 3 * static_cast<std::size_t>(column[k]) > row) continue;
         const Mat3 block = blocks.hypersingular(b, out.curls[y][k]);
-        if (column >= 0)
-          out.D.add(row, 3 * static_cast<std::size_t>(column), block);
+        if (column[k] >= 0)
+          out.D.add(row, 3 * static_cast<std::size_t>(column[k]), block);
         else
           f -= block * p.data.displacement[nodes[k]];
       }

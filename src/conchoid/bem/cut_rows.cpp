@@ -41,6 +41,17 @@ class CutRowAssembler {
       register_function(wanted[w], w, test_);
     for (std::size_t x = 0; x < test_.size(); ++x)
       if (!test_[x].empty()) test_panels_.push_back(x);
+    test_index_.assign(test_.size(), -1);
+    for (std::size_t i = 0; i < test_panels_.size(); ++i)
+      test_index_[test_panels_[i]] = static_cast<long>(i);
+    const std::size_t n = test_panels_.size();
+    table_.resize(n * (n + 1) / 2);
+    parallel_for(n, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          table_[i * (i + 1) / 2 + j] =
+              p_.integrator.single_layer(space_.panels[test_panels_[i]], space_.panels[test_panels_[j]]);
+    });
     rows_.resize(wanted.size());
     for (CutRows& r : rows_)
       r = empty_rows();
@@ -97,13 +108,19 @@ class CutRowAssembler {
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
       const bool on_surface = y < space_.surface_count;
       if (!on_surface && trial_[y].empty()) continue;
-      const PairBlocks blocks(p_.integrator.single_layer(space_.panels[x], space_.panels[y]), p_.m);
+      const PairBlocks blocks(pair(x, y), p_.m);
       for (TestRows& t : out)
         for (const LocalFunction& g : trial_[y])
           t.rows.D_cut.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
       if (on_surface) add_body(x, y, blocks, out);
     }
     return out;
+  }
+
+  SingleLayerPair pair(std::size_t x, std::size_t y) const {
+    const long i = test_index_[x], j = test_index_[y];
+    if (j < 0) return p_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    return i >= j ? table_[i * (i + 1) / 2 + j] : table_[j * (j + 1) / 2 + i];
   }
 
   // Interaction with the body's own functions on surface piece y.
@@ -158,6 +175,8 @@ class CutRowAssembler {
   PanelFunctions trial_, test_;
   std::vector<std::size_t> test_panels_;
   std::vector<CutRows> rows_;
+  std::vector<long> test_index_;
+  std::vector<SingleLayerPair> table_;
 };
 
 }  // namespace

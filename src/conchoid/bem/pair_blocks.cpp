@@ -1,5 +1,6 @@
 #include "conchoid/bem/pair_blocks.hpp"
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 namespace conchoid {
@@ -34,7 +35,16 @@ PairBlocks::PairBlocks(const SingleLayerPair& s, const ElasticConstants& m) : mu
 Mat3 PairBlocks::hypersingular(const Vec3& b, const Vec3& a) const {
   const double ab = a.dot(b);
   // μ/4π Σ_k ∂_Sk ∂_Sk  +  (Mv)ᵀ [μ/2πR − 4μ²U] (Mu)  +  μ/4π Σ_k (M_kj v_i)(M_ki u_j)
-  Mat3 block = cross_matrix(b).transpose() * curl_kernel_ * cross_matrix(a) - laplace_ * (b * a.transpose());
+  Mat3 block;
+  Mat3 left;
+  for (int q = 0; q < 3; ++q)
+    left.col(q) = curl_kernel_.col(q).cross(b);
+  for (int p = 0; p < 3; ++p) {
+    const double r0 = left(p, 0), r1 = left(p, 1), r2 = left(p, 2), s = laplace_;
+    block(p, 0) = (r1 * a.z() - r2 * a.y()) - (s * b[p]) * a[0];
+    block(p, 1) = (r2 * a.x() - r0 * a.z()) - (s * b[p]) * a[1];
+    block(p, 2) = (r0 * a.y() - r1 * a.x()) - (s * b[p]) * a[2];
+  }
   block.diagonal().array() += 2 * laplace_ * ab;
   return block;
 }

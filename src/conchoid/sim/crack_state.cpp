@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/mesh/manifold_part.hpp"
 
 namespace conchoid {
 namespace {
@@ -77,8 +78,8 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
 
 void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) {
   const bool infinite = surface.corners.empty();
-  state.cut =
-      infinite ? uncut_sheet(state.sheet.mesh) : cut_for_elements(surface, state.sheet.mesh, crack_edge);
+  state.cut = infinite ? uncut_sheet(state.sheet.mesh)
+                       : cut_for_elements(surface, manifold_part(state.sheet.mesh), crack_edge);
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth);
   std::vector<char> on_mouth(state.cut.positions.size(), 0), used(state.cut.positions.size(), 0);

@@ -13,6 +13,7 @@
 #include "conchoid/core/progress.hpp"
 #include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/initiation.hpp"
+#include "conchoid/mesh/manifold_part.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -197,7 +198,7 @@ void FrameLoop::write_frame(int frame, RunFolder& folder, const std::vector<Fron
 std::string FrameLoop::guarded_frame(int frame, RunResult& result, RunFolder* folder) {
   try {
     return compute_frame(frame, result, folder);
-  } catch (const ComputationError& error) {
+  } catch (const std::runtime_error& error) {
     if (frame == 1) throw;
     result.document.warnings.push_back(
         fmt::format("frame {}: {}; the run ends here and keeps the frames before", frame, error.what()));
@@ -272,6 +273,8 @@ std::vector<TriMesh> FrameLoop::fine_sheets() const {
   for (const auto& c : all.corners)
     sheets[part[c[0].index()]].corners.push_back(
         {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+  for (TriMesh& sheet : sheets)
+    sheet = manifold_part(sheet);
   std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
   return sheets;
 }

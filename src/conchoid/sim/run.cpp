@@ -6,7 +6,9 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/mesh/manifold_part.hpp"
 #include "conchoid/sim/frame_loop.hpp"
 
 namespace conchoid {
@@ -54,7 +56,7 @@ TriMesh used_part(const CutComplex& cut) {
 
 std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   for (TriMesh& sheet : sheets)
-    sheet = extend_sheet_beyond(sheet, boundary_edges(sheet), length);
+    sheet = manifold_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
   return sheets;
 }
 
@@ -67,12 +69,23 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
     return;
   }
   const FragmentSettings settings{scene.material.density, scene.run.smallest_fragment};
-  if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
-  if (result.document.stop == "separated" && fragments && result.fragments.size() < 2) {
-    sheets = run_on(std::move(sheets), kRunOut * setup.crack_edge);
-    result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+  try {
+    if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+    if (result.document.stop == "separated" && fragments && result.fragments.size() < 2) {
+      sheets = run_on(std::move(sheets), kRunOut * setup.crack_edge);
+      result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+    }
+    result.crack = used_part(corefine(setup.detailed, join(sheets)));
+  } catch (const std::runtime_error&
+               error) {  // a crack surface folded over itself: the frames are still worth having
+    result.document.warnings.push_back(
+        fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
+                    "as swept, the body is left whole",
+                    error.what()));
+    warning(result.document.warnings.back());
+    result.crack = join(sheets);
+    if (fragments) result.fragments = cut_into_fragments(setup.detailed, {}, settings);
   }
-  result.crack = used_part(corefine(setup.detailed, join(sheets)));
   for (Fragment& f : result.fragments) {
     move_back(f.mesh, setup.origin);
     f.center_of_mass += setup.origin;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// The triangles of a sheet, in their order, that keep it an oriented manifold with boundary along edges: one
+/// that would be the third on an edge, or run along it in the direction another already does, is left out.
+/// Nodes keep their ids. A fold that a growing crack front has laid over itself loses its upper layer that
+/// way; a proper sheet comes back unchanged.
+TriMesh manifold_part(const TriMesh& sheet);
+
+}  // namespace conchoid
