@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/core/error.hpp"
@@ -18,8 +19,9 @@
 namespace conchoid {
 namespace {
 
-constexpr double kOnSurface = 1e-3;   // of a crack edge: nearer than this to the surface lies on it
-constexpr double kStickOut = 0.35;    // of a crack edge: how far a sheet that ends on the surface is extended
+constexpr double kOnSurface = 1e-3;  // of a crack edge: nearer than this to the surface lies on it
+constexpr double kStickOut =
+    0.35;  // of a crack edge: how far a sheet that ends on the surface is drawn out beyond it
 constexpr double kEdgesPerSize = 10;  // default resolution
 
 void scale_and_move(TriMesh& mesh, double scale, const Vec3& origin) {
@@ -103,8 +105,25 @@ TriMesh make_crack(const CrackSpec& spec, double edge) {
   return crack_from_mesh_file(spec.file);
 }
 
-// Boundary edges that lie on the surface are the mouth: the sheet is drawn out beyond it, so that it cuts the
-// surface cleanly.
+// Moves the nodes of the given boundary edges outward, in the plane of the sheet.
+TriMesh draw_out(TriMesh sheet, const std::vector<Edge>& edges, double length) {
+  const TriMesh extended = extend_sheet_beyond(sheet, edges, length);
+  const std::size_t own = sheet.node_count();
+  std::vector<double> nearest(own, std::numeric_limits<double>::infinity());
+  for (std::size_t t = sheet.triangle_count(); t < extended.triangle_count(); ++t)
+    for (NodeId from : extended.corners[TriId(t)])
+      for (NodeId to : extended.corners[TriId(t)]) {
+        if (from.index() >= own || to.index() < own) continue;
+        const double distance = (extended.positions[to] - extended.positions[from]).norm();
+        if (distance >= nearest[from.index()]) continue;
+        nearest[from.index()] = distance;
+        sheet.positions[from] = extended.positions[to];
+      }
+  return sheet;
+}
+
+// Boundary edges that lie on the surface are the mouth: the sheet's nodes there are drawn out beyond it, so
+// that it cuts the surface cleanly and none of its nodes lies in the surface.
 TriMesh stick_out(const TriMesh& sheet, const ClosestPointTree& surface) {
   std::vector<Edge> mouth;
   double length = 0;
@@ -117,7 +136,7 @@ TriMesh stick_out(const TriMesh& sheet, const ClosestPointTree& surface) {
     length += edge;
   }
   if (mouth.empty()) return sheet;
-  return extend_sheet_beyond(sheet, mouth, kStickOut * length / static_cast<double>(mouth.size()));
+  return draw_out(sheet, mouth, kStickOut * length / static_cast<double>(mouth.size()));
 }
 
 void add_cracks(const Scene& scene, const TriMesh& model_crack, BodySetup& out) {
