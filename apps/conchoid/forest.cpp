@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 constexpr std::array kModes = {"I", "II", "III"};
 
 struct ForestOptions {
-  std::string file, samples, out, features = "dimensionless";
+  std::string file, samples, out, features = "paper-4";
   ForestSettings settings;
   double hold_out = 0;
 };
