@@ -12,8 +12,8 @@ mkdir -p "$out"
 
 step() { printf '\n== %s\n' "$*"; }
 
-step "40 runs of the cube under random loads"
-"$conchoid" database generate examples/cube-database.toml --runs 40 --out "$out/cube.h5"
+step "150 runs of the cube under random loads"
+"$conchoid" database generate examples/cube-database.toml --runs 150 --out "$out/cube.h5"
 
 step "a forest that learns how cracks open from them"
 "$conchoid" forest train "$out/cube.h5" --out "$out/cube.forest" --trees 50 --depth 10
@@ -28,4 +28,4 @@ step "how far the prediction is from the solution"
 "$conchoid" compare "$out/bem" "$out/forest"
 
 step "both side by side"
-"$conchoid" picture "$out/bem" "$out/forest" --out "$out/cube.png"
+"$conchoid" picture "$out/bem" "$out/forest" --explode 0.4 --out "$out/cube.png"
