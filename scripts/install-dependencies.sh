@@ -7,7 +7,7 @@ packages=(
   libeigen3-dev libopenblas-dev liblapack-dev libtbb-dev libfmt-dev libxxhash-dev
   libhdf5-dev libxgboost-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
   libembree-dev libpng-dev
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev libassimp-dev
 )
 
 missing=()

@@ -42,8 +42,10 @@ struct RunResult {
 
 /// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
 /// separated or the frame limit is reached; then cut the body. document.stop says which: "arrested",
-/// "separated", "frame-limit", "intact" (nothing cracked) or "interrupted" (Ctrl-C: what was computed is kept
-/// and written). Same scene, same bits: for every number of threads, with a folder or without.
+/// "separated", "frame-limit", "intact" (nothing cracked) "singular" (a later frame could not be solved,
+/// mostly because a piece hangs by a ligament too thin to resolve: what was computed is kept and a warning
+/// says so) or "interrupted" (Ctrl-C: what was computed is kept and written). Same scene, same bits: for
+/// every number of threads, with a folder or without.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 }  // namespace conchoid
