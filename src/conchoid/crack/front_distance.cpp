@@ -56,22 +56,17 @@ EdgeFoot foot_on_edge(const TriMesh& crack, const Front& front, std::size_t edge
 
 }  // namespace
 
-FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, std::size_t first_edge,
-                       std::size_t reach) {
-  const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
-  const std::size_t count = std::min(edges, 2 * reach + 1);
+FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, EdgeRange range) {
+  const std::size_t n = front.nodes.size();
+  const auto edges = static_cast<std::ptrdiff_t>(edge_count(n, front.closed));
+  const auto wanted = static_cast<std::ptrdiff_t>(range.count);
+  const auto count = front.closed ? std::min(edges, wanted) : wanted;
   EdgeFoot best;
   best.distance = std::numeric_limits<double>::infinity();
-  std::size_t best_edge = first_edge < edges ? first_edge : 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    std::size_t edge = first_edge + k;
-    if (front.closed) {
-      edge = (edge + edges - reach % edges) % edges;
-    } else if (edge < reach || edge - reach >= edges) {
-      continue;
-    } else {
-      edge -= reach;
-    }
+  std::size_t best_edge = 0;
+  for (std::ptrdiff_t k = range.first; k < range.first + count; ++k) {
+    if (!front.closed && (k < 0 || k >= edges)) continue;
+    const auto edge = static_cast<std::size_t>((k % edges + edges) % edges);
     const EdgeFoot foot = foot_on_edge(crack, front, edge, x);
     if (foot.abreast != best.abreast ? foot.abreast : foot.distance < best.distance) {
       best = foot;

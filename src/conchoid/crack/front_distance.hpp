@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "conchoid/crack/front.hpp"
 
 namespace conchoid {
@@ -12,11 +14,22 @@ struct FrontFoot {
       0;  ///< r [m] from the point to the true front: to the chord, plus the chord's sagitta at the foot
 };
 
-/// Foot of x on the front edges [first_edge − reach, first_edge + reach] (clipped at open ends) to x.
+/// Edges of a front: `count` of them from edge `first` on, which may lie before the start. They go round a
+/// closed front and are clipped at the ends of an open one.
+struct EdgeRange {
+  std::ptrdiff_t first = 0;
+  std::size_t count = 1;
+};
+
+/// The `reach` edges on either side of front node i: the same ones whichever way the front is walked.
+inline EdgeRange edges_around(std::size_t i, std::size_t reach) {
+  return {static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(reach), 2 * reach};
+}
+
+/// Foot of x on the front edges in `range` closest to x.
 /// A front edge is a chord of the true, smooth front, which lies outside it by κ s (L − s)/2 with the
 /// curvature κ taken from the tangents at its two ends.
-FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, std::size_t first_edge,
-                       std::size_t reach);
+FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, EdgeRange range);
 
 /// Frame of the front at the foot.
 FrontFrame frame_at(const Front& front, const FrontFoot& foot);

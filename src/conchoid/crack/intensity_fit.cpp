@@ -160,7 +160,7 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
   std::vector<OpeningSample> samples;
   if (!(h > 0)) return samples;
   for (NodeId node : nodes_behind(crack, links, front, i, rows, (kReachBehind + kReachAlong) * h)) {
-    const FrontFoot foot = closest_foot(crack, front, crack.positions[node], i, 2);
+    const FrontFoot foot = closest_foot(crack, front, crack.positions[node], edges_around(i, 2));
     OpeningSample sample;
     sample.r = foot.distance / h;
     sample.s = along_front(crack, front, i, foot) / h;

@@ -73,7 +73,8 @@ std::vector<Vec3> one_point_rates(const TriMesh& crack, const Front& front,
   for (std::size_t i = 0; i < across.size(); ++i) {
     const NodeId node = across[i];
     if (!node.valid() || on_front[node.index()]) continue;
-    const FrontFoot foot = closest_foot(crack, front, crack.positions[node], i, 0);
+    const FrontFoot foot =
+        closest_foot(crack, front, crack.positions[node], {static_cast<std::ptrdiff_t>(i), 1});
     if (!(foot.distance > 0)) continue;
     const Vec3 rate = in_frame(frame_at(front, foot), opening[node]) / std::sqrt(foot.distance);
     for (std::size_t end : {i, next_index(i, n, front.closed)}) {
