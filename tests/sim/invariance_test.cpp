@@ -63,6 +63,8 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 class Invariance : public testing::TestWithParam<Case> {
  protected:
+  void expect_same_bits(double size, double stiffness);
+
   void expect_same(const Map& map) {
     const RunResult here = run({}, GetParam().pull), there = run(map, GetParam().pull);
     EXPECT_EQ(here.document.stop, "separated");
@@ -110,22 +112,35 @@ TEST_P(Invariance, PhysicallyScaledDown) {
   expect_same({.scale = 1e-3, .stiffness = 0.01});
 }
 
-TEST_P(Invariance, ScaledByPowersOfTwoBitForBit) {
-  const Map map{.scale = 4, .stiffness = 16};
+void Invariance::expect_same_bits(double size, double stiffness) {
+  const Map map{.scale = size, .stiffness = stiffness};
+  const double K = stiffness * std::sqrt(size), volume = size * size * size;
   const RunResult here = run({}, GetParam().pull), there = run(map, GetParam().pull);
   EXPECT_EQ(here.document.frames, there.document.frames);
   ASSERT_EQ(here.crack.node_count(), there.crack.node_count());
   ASSERT_EQ(here.crack.corners.size(), there.crack.corners.size());
   for (std::size_t i = 0; i < here.crack.node_count(); ++i)
-    ASSERT_EQ(there.crack.positions[NodeId(i)], 4 * here.crack.positions[NodeId(i)]);
+    ASSERT_EQ(there.crack.positions[NodeId(i)], size * here.crack.positions[NodeId(i)]);
   for (std::size_t t = 0; t < here.crack.triangle_count(); ++t)
     ASSERT_EQ(there.crack.corners[TriId(t)], here.crack.corners[TriId(t)]);
   ASSERT_EQ(here.front.size(), there.front.size());
   for (std::size_t i = 0; i < here.front.size(); ++i)
-    ASSERT_EQ(there.front[i].intensity, 32 * here.front[i].intensity);  // stiffness × √size
+    ASSERT_EQ(there.front[i].intensity, K * here.front[i].intensity);
   ASSERT_EQ(here.fragments.size(), there.fragments.size());
   for (std::size_t i = 0; i < here.fragments.size(); ++i)
-    EXPECT_EQ(there.fragments[i].volume, 64 * here.fragments[i].volume);
+    EXPECT_EQ(there.fragments[i].volume, volume * here.fragments[i].volume);
+}
+
+TEST_P(Invariance, ScaledByPowersOfTwoBitForBit) {
+  expect_same_bits(4, 16);
+}
+
+TEST_P(Invariance, StiffenedByAnOddPowerOfTwoBitForBit) {
+  expect_same_bits(1, 8);
+}
+
+TEST_P(Invariance, ShrunkAndSoftenedByPowersOfTwoBitForBit) {
+  expect_same_bits(0.25, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cubes, Invariance,

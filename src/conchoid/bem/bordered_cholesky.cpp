@@ -3,6 +3,7 @@
 #include <cblas.h>
 
 #include <algorithm>
+#include <cmath>
 
 extern "C" {
 void openblas_set_num_threads(int);
@@ -32,6 +33,10 @@ void BorderedCholesky::reserve(std::size_t n) {
   capacity_ = grown;
 }
 
+void BorderedCholesky::choose_scale(double first) {
+  scale_ = first > 0 && std::isfinite(first) ? std::ldexp(1.0, -std::ilogb(first)) : 1.0;
+}
+
 bool BorderedCholesky::append(const std::vector<double>& coupling, const std::vector<double>& diagonal) {
   use_one_blas_thread();
   std::size_t m = 0;
@@ -39,15 +44,16 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
     ++m;
   if (m == 0) return true;
   reserve(n_ + m);
+  if (n_ == 0) choose_scale(diagonal[0]);
   const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
   double* border = factor_.data() + n_;  // rows n…n+m of the old columns
   double* corner = factor_.data() + n_ * capacity_ + n_;
   for (std::size_t j = 0; j < n_; ++j)
     for (std::size_t i = 0; i < m; ++i)
-      border[j * capacity_ + i] = coupling[i * n_ + j];
+      border[j * capacity_ + i] = scale_ * coupling[i * n_ + j];
   for (std::size_t j = 0; j < m; ++j)
     for (std::size_t i = j; i < m; ++i)
-      corner[j * capacity_ + i] = diagonal[i * m + j];
+      corner[j * capacity_ + i] = scale_ * diagonal[i * m + j];
   if (n_ > 0) {
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.data(),
                 lead, border, lead);
@@ -68,6 +74,8 @@ void BorderedCholesky::solve(double* b, std::size_t count) const {
   if (n_ == 0 || count == 0) return;
   use_one_blas_thread();
   const int n = static_cast<int>(n_), lead = static_cast<int>(capacity_), columns = static_cast<int>(count);
+  for (std::size_t i = 0; i < n_ * count; ++i)
+    b[i] *= scale_;
   int info = 0;
   dpotrs_("L", &n, &columns, factor_.data(), &lead, b, &n, &info);
 }

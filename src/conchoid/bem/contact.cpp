@@ -69,7 +69,8 @@ void close_penetrating_faces(std::vector<double>& x, const std::vector<OpeningCo
         for (Eigen::Index b = 0; b < k; ++b)
           compliance(b, a) = normal_opening(responses.of(set[a]), constraints[set[b]]);
       }
-      const Eigen::VectorXd pressure = compliance.llt().solve(gap);
+      const Eigen::VectorXd pressure =
+          compliance.ldlt().solve(gap);  // no roots: the same bits in other units
       released = false;
       for (Eigen::Index a = 0; a < k; ++a)
         if (pressure[a] < 0) {
