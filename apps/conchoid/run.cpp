@@ -16,7 +16,8 @@ namespace {
 
 struct RunCommand {
   std::string scene, method = "bem", database, out;
-  int frames = 0;  ///< 0: the scene's
+  std::vector<std::string> formats;  ///< empty: the scene's
+  int frames = 0;                    ///< 0: the scene's
   bool resume = false;
 };
 
@@ -45,8 +46,12 @@ std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& 
     throw InputError(file.string() +
                      ": belongs to another scene or method; name another folder, or leave out --resume");
   const std::int64_t frames = options.frames.value_or(scene.run.frames);
-  for (const RunSetting& s : document.settings)
+  const std::string formats =
+      fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","));
+  for (const RunSetting& s : document.settings) {
     if (s.name == "run.frames" && s.value != RunSetting{s.name, frames}.value) return std::nullopt;
+    if (s.name == "output.formats" && s.value != RunSetting{s.name, formats}.value) return std::nullopt;
+  }
   if (document.stop == "interrupted") return std::nullopt;
   return document;
 }
@@ -56,6 +61,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   options.method = method_from_name(command.method);
   if (command.frames > 0) options.frames = command.frames;
   if (!command.out.empty()) options.folder = command.out;
+  if (!command.formats.empty()) options.formats = command.formats;
   if ((options.method == Method::forest) == command.database.empty())
     throw InputError(command.database.empty()
                          ? "--method forest needs a forest: add --database FOREST"
@@ -92,6 +98,11 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("--frames", options->frames, "most frames, in place of the scene's")
       ->check(CLI::Range(1, 100000));
   command->add_option("--out", options->out, "run folder to write; without it nothing is written");
+  command
+      ->add_option("--format", options->formats,
+                   "files of the pieces, in place of the scene's output.formats, with commas between")
+      ->delimiter(',')
+      ->check(CLI::IsMember(fragment_format_names()));
   command->add_flag("--resume", options->resume,
                     "keep a finished run of the same scene in the folder; make an unfinished one again");
   command->footer(settings_text(false));

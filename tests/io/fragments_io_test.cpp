@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "conchoid/io/corner_normals.hpp"
 #include "conchoid/io/ply.hpp"
+#include "conchoid/surface/corner_normals.hpp"
 #include "io/samples.hpp"
 
 #ifdef CONCHOID_HAVE_ASSIMP

@@ -1,42 +1,110 @@
 #include "conchoid/io/fragments_io.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "conchoid/core/atomic_file.hpp"
+#include "conchoid/core/error.hpp"
 #include "conchoid/io/colors.hpp"
-#include "conchoid/io/corner_normals.hpp"
 #include "conchoid/io/numbers.hpp"
 #include "conchoid/io/ply.hpp"
+#include "conchoid/surface/corner_normals.hpp"
 
 namespace conchoid {
 namespace {
 
-void write_material(std::ostream& out, const char* name, const Color& color) {
+struct NamedFormat {
+  const char* name;
+  bool FragmentFormats::*wanted;
+};
+constexpr NamedFormat named_formats[] = {{"ply", &FragmentFormats::ply},
+                                         {"obj", &FragmentFormats::obj},
+                                         {"glb", &FragmentFormats::glb},
+                                         {"stl", &FragmentFormats::stl}};
+
+void write_material(std::ostream& out, const std::string& name, const Color& color) {
   out << "newmtl " << name << "\nKd " << shortest(color.r) << ' ' << shortest(color.g) << ' '
       << shortest(color.b) << "\nKa 0 0 0\nKs 0.05 0.05 0.05\nNs 20\nillum 2\n\n";
 }
 
-/// Faces of one kind as a group. A normal of the file belongs to each corner: number 3t + k + 1.
-void write_group(std::ostream& out, const Fragment& fragment, FaceKind kind, const char* name) {
-  out << "g " << name << "\nusemtl " << name << '\n';
-  for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t) {
-    if (fragment.face_kind[t] != kind) continue;
-    out << 'f';
-    for (std::size_t k = 0; k < 3; ++k)
-      out << ' ' << fragment.mesh.corners[TriId(t)][k].value + 1 << "//" << 3 * t + k + 1;
-    out << '\n';
+/// The different values of corners, as lines of an .obj file in the order of their first corner; numbers
+/// count from 1.
+template <class T>
+class ValueLines {
+ public:
+  ValueLines(std::ostream& out, const char* keyword, const std::vector<std::array<T, 3>>& corners) {
+    for (const auto& three : corners)
+      for (const T& value : three) {
+        const Eigen::Matrix<float, T::RowsAtCompileTime, 1> x = value.template cast<float>();
+        const auto [entry, is_new] =
+            known_.emplace(std::vector<float>(x.data(), x.data() + x.size()), known_.size() + 1);
+        number_.push_back(entry->second);
+        if (!is_new) continue;
+        out << keyword;
+        for (const float component : entry->first)
+          out << ' ' << shortest(static_cast<double>(component));
+        out << '\n';
+      }
   }
-}
+  std::size_t operator()(std::size_t triangle, std::size_t corner) const {
+    return number_[3 * triangle + corner];
+  }
+  bool empty() const { return number_.empty(); }
+
+ private:
+  std::map<std::vector<float>, std::size_t> known_;
+  std::vector<std::size_t> number_;
+};
 
 }  // namespace
 
+std::vector<std::string> fragment_format_names() {
+  std::vector<std::string> names;
+  for (const NamedFormat& format : named_formats)
+    names.push_back(format.name);
+  return names;
+}
+
+FragmentFormats formats_from_names(const std::vector<std::string>& names, const std::string& where) {
+  FragmentFormats formats;
+  std::string all;
+  for (const NamedFormat& format : named_formats) {
+    formats.*format.wanted = std::find(names.begin(), names.end(), format.name) != names.end();
+    all += (all.empty() ? "" : ", ") + std::string(format.name);
+  }
+  for (const std::string& name : names)
+    if (std::none_of(std::begin(named_formats), std::end(named_formats),
+                     [&](const NamedFormat& f) { return f.name == name; }))
+      throw InputError(where + ": format '" + name + "' is not known; choose from " + all);
+  return formats;
+}
+
+SurfaceAttributes written_attributes(const Fragment& fragment) {
+  if (!fragment.attributes.empty()) return fragment.attributes;
+  SurfaceAttributes out;
+  out.normal = corner_normals(fragment.mesh, fragment.face_kind);
+  out.materials = {"original", "fracture"};
+  for (const FaceKind kind : fragment.face_kind)
+    out.material.push_back(kind == FaceKind::original ? 0 : 1);
+  return out;
+}
+
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment) {
-  write_ply(path, {fragment.mesh, fragment.face_kind, fragment.source, {}});
+  write_ply(path, {.mesh = fragment.mesh,
+                   .face_kind = fragment.face_kind,
+                   .source = fragment.source,
+                   .frame = {},
+                   .material = fragment.attributes.material,
+                   .uv = fragment.attributes.uv});
 }
 
 void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragment) {
+  const SurfaceAttributes look = written_attributes(fragment);
   const std::filesystem::path material = std::filesystem::path(path).replace_extension(".mtl");
   AtomicFile materials(material);
-  write_material(materials.stream(), "original", original_color);
-  write_material(materials.stream(), "fracture", fracture_color);
+  for (const std::string& name : look.materials)
+    write_material(materials.stream(), name,
+                   &name == &look.materials.back() ? fracture_color : original_color);
   materials.commit();
 
   AtomicFile file(path);
@@ -44,15 +112,21 @@ void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragm
   out << "# conchoid fragment, lengths in metres\nmtllib " << material.filename().string() << '\n';
   for (const Vec3& x : fragment.mesh.positions)
     out << "v " << shortest(x[0]) << ' ' << shortest(x[1]) << ' ' << shortest(x[2]) << '\n';
-  for (const auto& corners : corner_normals(fragment.mesh, fragment.face_kind))
-    for (const Vec3& n : corners) {
-      out << "vn";
-      for (int i = 0; i < 3; ++i)
-        out << ' ' << shortest(static_cast<double>(static_cast<float>(n[i])));
+  const ValueLines<Vec2> uv(out, "vt", look.uv);
+  const ValueLines<Vec3> normal(out, "vn", look.normal);
+  for (std::size_t m = 0; m < look.materials.size(); ++m) {
+    out << "g " << look.materials[m] << "\nusemtl " << look.materials[m] << '\n';
+    for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t) {
+      if (look.material[t] != static_cast<int>(m)) continue;
+      out << 'f';
+      for (std::size_t k = 0; k < 3; ++k) {
+        out << ' ' << fragment.mesh.corners[TriId(t)][k].value + 1 << '/';
+        if (!uv.empty()) out << uv(t, k);
+        out << '/' << normal(t, k);
+      }
       out << '\n';
     }
-  write_group(out, fragment, FaceKind::original, "original");
-  write_group(out, fragment, FaceKind::fracture, "fracture");
+  }
   file.commit();
 }
 

@@ -1,25 +1,42 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "conchoid/surface/fragments.hpp"
 
 namespace conchoid {
 
+/// The files that pieces are written as. Names, as in scenes and on the command line: ply, obj, glb, stl.
+struct FragmentFormats {
+  bool ply = true, obj = true, glb = true, stl = false;
+};
+/// Names that formats_from_names() knows, in the order of the documentation.
+std::vector<std::string> fragment_format_names();
+/// @throws InputError "WHERE: …" for a name that is not known
+FragmentFormats formats_from_names(const std::vector<std::string>& names, const std::string& where);
+
 /// One fragment as binary PLY in double precision: triangles share nodes (the file is as watertight as the
-/// fragment), each face carries its colour, its kind (0 original, 1 fracture) and its source triangle.
+/// fragment), each face carries its colour, its kind (0 original, 1 fracture), its source triangle and, where
+/// the fragment is dressed, its material id and the texture coordinates of its corners (list texcoord).
 /// Coordinates are the body's.
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment);
 
-/// One fragment as Wavefront OBJ with two groups, "original" and "fracture", and a material file beside it
-/// (same name, .mtl). Nodes are shared; normals are per corner, so that rims and edges shade sharply.
+/// One fragment as Wavefront OBJ with a group per material ("original" and "fracture", or the materials of
+/// the input and "fracture") and a material file beside it (same name, .mtl). Nodes are shared; normals and
+/// texture coordinates are per corner, so that rims and edges shade sharply and seams stay open.
 void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragment);
 
 /// All fragments as one binary glTF 2.0 file: one node per fragment at its centre of mass, below a root that
-/// turns our z-up into glTF's y-up; two materials, "original" and "fracture". A node's extras hold mass [kg],
-/// volume [m³], inertia [kg m²] about the centre of mass (xx, yy, zz, yz, xz, xy) and watertight. Vertices
-/// are split where the kind or the shading normal changes; single precision.
+/// turns our z-up into glTF's y-up; a material per material of the fragments, the last one "fracture". A
+/// node's extras hold mass [kg], volume [m³], inertia [kg m²] about the centre of mass (xx, yy, zz, yz, xz,
+/// xy) and watertight. Vertices are split where material, shading normal or texture coordinates change;
+/// single precision.
 void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fragment>& fragments);
+
+/// What the fragment was dressed with; plain normals and the two materials "original" and "fracture" where it
+/// was not.
+SurfaceAttributes written_attributes(const Fragment& fragment);
 
 }  // namespace conchoid

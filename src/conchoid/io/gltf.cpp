@@ -12,7 +12,6 @@
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/io/byte_order.hpp"
 #include "conchoid/io/colors.hpp"
-#include "conchoid/io/corner_normals.hpp"
 #include "conchoid/io/fragments_io.hpp"
 
 namespace conchoid {
@@ -20,13 +19,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Float3 = std::array<float, 3>;
+using Float2 = std::array<float, 2>;
 
 constexpr int gl_float = 5126, gl_unsigned_int = 5125, gl_array_buffer = 34962,
               gl_element_array_buffer = 34963;
 
-/// The triangles of one kind with one vertex per node and shading normal.
+/// The triangles of one material, with one vertex per node, shading normal and texture coordinates.
 struct Primitive {
   std::vector<Float3> position, normal;
+  std::vector<Float2> uv;
   std::vector<std::uint32_t> index;
 };
 
@@ -34,21 +35,24 @@ Float3 unit_float(const Vec3& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-Primitive primitive_of(const Fragment& fragment, FaceKind kind,
-                       const std::vector<std::array<Vec3, 3>>& normals) {
+Primitive primitive_of(const Fragment& fragment, const SurfaceAttributes& look, int material) {
   Primitive out;
-  std::map<std::tuple<NodeId, Float3>, std::uint32_t> known;
+  std::map<std::tuple<NodeId, Float3, Float2>, std::uint32_t> known;
   for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t) {
-    if (fragment.face_kind[t] != kind) continue;
+    if (look.material[t] != material) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const NodeId node = fragment.mesh.corners[TriId(t)][k];
-      const Float3 normal = unit_float(normals[t][k]);
+      const Float3 normal = unit_float(look.normal[t][k]);
+      Float2 uv{};  // glTF counts v downward
+      if (!look.uv.empty())
+        uv = {static_cast<float>(look.uv[t][k][0]), static_cast<float>(1 - look.uv[t][k][1])};
       const auto [entry, is_new] =
-          known.emplace(std::tuple(node, normal), static_cast<std::uint32_t>(out.position.size()));
+          known.emplace(std::tuple(node, normal, uv), static_cast<std::uint32_t>(out.position.size()));
       if (is_new) {
         const Vec3 x = fragment.mesh.positions[node] - fragment.center_of_mass;
         out.position.push_back(unit_float(x));
         out.normal.push_back(normal);
+        if (!look.uv.empty()) out.uv.push_back(uv);
       }
       out.index.push_back(entry->second);
     }
@@ -65,21 +69,22 @@ class Document {
     json_["scenes"] = Json::array({{{"name", "fragments"}, {"nodes", Json::array({0})}}});
     json_["nodes"] =
         Json::array({{{"name", "body"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}}});
-    json_["materials"] =
-        Json::array({material("original", original_color), material("fracture", fracture_color)});
   }
 
   void add(const Fragment& fragment) {
-    const auto normals = corner_normals(fragment.mesh, fragment.face_kind);
+    const SurfaceAttributes look = written_attributes(fragment);
+    if (!json_.contains("materials"))
+      for (const std::string& name : look.materials)
+        json_["materials"].push_back(
+            material(name, &name == &look.materials.back() ? fracture_color : original_color));
     Json primitives = Json::array();
-    for (FaceKind kind : {FaceKind::original, FaceKind::fracture}) {
-      const Primitive p = primitive_of(fragment, kind, normals);
+    for (std::size_t m = 0; m < look.materials.size(); ++m) {
+      const Primitive p = primitive_of(fragment, look, static_cast<int>(m));
       if (p.index.empty()) continue;
+      Json attributes{{"POSITION", accessor(p.position, true)}, {"NORMAL", accessor(p.normal, false)}};
+      if (!p.uv.empty()) attributes["TEXCOORD_0"] = accessor(p.uv, false);
       primitives.push_back(
-          {{"attributes", {{"POSITION", accessor(p.position, true)}, {"NORMAL", accessor(p.normal, false)}}},
-           {"indices", accessor(p.index)},
-           {"material", kind == FaceKind::original ? 0 : 1},
-           {"mode", 4}});
+          {{"attributes", attributes}, {"indices", accessor(p.index)}, {"material", m}, {"mode", 4}});
     }
     const std::string name = "fragment_" + std::to_string(fragment_count_++);
     const Vec3& c = fragment.center_of_mass;
@@ -118,7 +123,7 @@ class Document {
   }
 
  private:
-  static Json material(const char* name, const Color& color) {
+  static Json material(const std::string& name, const Color& color) {
     return {{"name", name},
             {"pbrMetallicRoughness",
              {{"baseColorFactor", {to_linear(color.r), to_linear(color.g), to_linear(color.b), 1.0}},
@@ -132,11 +137,12 @@ class Document {
     return json_["bufferViews"].size() - 1;
   }
 
-  std::size_t accessor(const std::vector<Float3>& values, bool with_bounds) {
-    Float3 low = values.front(), high = values.front();
+  template <std::size_t n>
+  std::size_t accessor(const std::vector<std::array<float, n>>& values, bool with_bounds) {
+    std::array<float, n> low = values.front(), high = values.front();
     const std::size_t begin = bytes_.size();
-    for (const Float3& v : values)
-      for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto& v : values)
+      for (std::size_t i = 0; i < n; ++i) {
         low[i] = std::min(low[i], v[i]);
         high[i] = std::max(high[i], v[i]);
         append_bytes(bytes_, v[i]);
@@ -144,7 +150,7 @@ class Document {
     Json entry{{"bufferView", view(begin, gl_array_buffer)},
                {"componentType", gl_float},
                {"count", values.size()},
-               {"type", "VEC3"}};
+               {"type", n == 3 ? "VEC3" : "VEC2"}};
     if (with_bounds) {
       entry["min"] = low;
       entry["max"] = high;

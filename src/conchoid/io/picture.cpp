@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "conchoid/core/parallel.hpp"
-#include "conchoid/io/corner_normals.hpp"
 #include "conchoid/io/panel_labels.hpp"
 #include "conchoid/io/ray_scene.hpp"
+#include "conchoid/surface/corner_normals.hpp"
 
 namespace conchoid {
 namespace {

@@ -210,6 +210,8 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
     header << "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar kind\n";
   if (!ply.source.empty()) header << "property int source\n";
   if (!ply.frame.empty()) header << "property int frame\n";
+  if (!ply.material.empty()) header << "property int material\n";
+  if (!ply.uv.empty()) header << "property list uchar float texcoord\n";
   header << "end_header\n";
 
   std::string bytes;
@@ -228,6 +230,12 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
     }
     if (!ply.source.empty()) append_bytes(bytes, ply.source[t].value);
     if (!ply.frame.empty()) append_bytes(bytes, std::int32_t{ply.frame[t]});
+    if (!ply.material.empty()) append_bytes(bytes, std::int32_t{ply.material[t]});
+    if (ply.uv.empty()) continue;
+    append_bytes(bytes, std::uint8_t{6});
+    for (const Vec2& uv : ply.uv[t])
+      for (const double component : uv)
+        append_bytes(bytes, static_cast<float>(component));
   }
   AtomicFile file(path);
   file.stream() << header.str();

@@ -9,10 +9,12 @@ namespace conchoid {
 
 /// A triangle mesh as the run folder keeps it. The per-triangle lists are empty or as long as the mesh.
 struct PlyMesh {
-  TriMesh mesh;                     ///< coordinates in double precision [m]
-  std::vector<FaceKind> face_kind;  ///< property "kind": 0 original surface, 1 fracture
-  std::vector<TriId> source;        ///< property "source"
-  std::vector<int> frame;           ///< property "frame": the frame in which the triangle appeared
+  TriMesh mesh;                              ///< coordinates in double precision [m]
+  std::vector<FaceKind> face_kind;           ///< property "kind": 0 original surface, 1 fracture
+  std::vector<TriId> source;                 ///< property "source"
+  std::vector<int> frame;                    ///< property "frame": the frame in which the triangle appeared
+  std::vector<int> material = {};            ///< property "material"; written, not read
+  std::vector<std::array<Vec2, 3>> uv = {};  ///< list "texcoord", single precision; written, not read
 };
 
 /// Binary little-endian PLY, complete or not at all. Faces with a kind also carry a colour (red, green,

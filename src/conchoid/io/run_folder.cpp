@@ -7,8 +7,8 @@
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/io/fragments_io.hpp"
 #include "conchoid/io/ply.hpp"
+#include "conchoid/mesh/formats.hpp"
 
 namespace conchoid {
 namespace {
@@ -69,6 +69,16 @@ VtkField padded(const std::string& name, std::size_t before, const std::vector<V
 void check_length(const char* name, std::size_t length, std::size_t expected) {
   if (length != 0 && length != expected)
     throw std::logic_error(std::string("FrameData: '") + name + "' is not as long as its mesh");
+}
+
+/// Whether a run kept its pieces as PLY, as runs do unless told otherwise.
+bool wrote_ply(const RunDocument& document) {
+  for (const RunSetting& s : document.settings)
+    if (s.name == "output.formats") {
+      const std::string* names = std::get_if<std::string>(&s.value);
+      return !names || names->find("ply") != std::string::npos;
+    }
+  return true;
 }
 
 std::vector<PvdEntry> frames_present(const fs::path& path) {
@@ -147,18 +157,20 @@ void RunFolder::write_crack(const TriMesh& crack, const std::vector<int>& frame)
   write_ply(path_ / "crack.ply", {crack, {}, {}, frame});
 }
 
-void RunFolder::write_fragments(const std::vector<Fragment>& fragments) {
+void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats) {
   try {
-    fs::create_directories(path_ / "fragments");
+    if (formats.ply || formats.obj || formats.stl) fs::create_directories(path_ / "fragments");
   } catch (const fs::filesystem_error& error) {
     refuse_folder(path_ / "fragments",
                   "cannot be created (" + error.code().message() + "); check the permissions");
   }
   for (std::size_t i = 0; i < fragments.size(); ++i) {
-    write_fragment_ply(path_ / "fragments" / (fragment_name(i) + ".ply"), fragments[i]);
-    write_fragment_obj(path_ / "fragments" / (fragment_name(i) + ".obj"), fragments[i]);
+    const std::string name = (path_ / "fragments" / fragment_name(i)).string();
+    if (formats.ply) write_fragment_ply(name + ".ply", fragments[i]);
+    if (formats.obj) write_fragment_obj(name + ".obj", fragments[i]);
+    if (formats.stl) write_mesh(name + ".stl", fragments[i].mesh);
   }
-  write_fragments_glb(path_ / "fragments.glb", fragments);
+  if (formats.glb) write_fragments_glb(path_ / "fragments.glb", fragments);
 }
 
 void RunFolder::write_run_json(const RunDocument& document) {
@@ -178,6 +190,7 @@ RunData read_run(const fs::path& path) {
   run.document = read_run_json(path / "run.json");
   run.crack = read_ply(path / "crack.ply").mesh;
   run.front = read_front_csv(path / "front.csv");
+  if (!wrote_ply(run.document)) return run;
   for (std::size_t i = 0; i < run.document.fragments.size(); ++i) {
     const fs::path file = path / "fragments" / (fragment_name(i) + ".ply");
     PlyMesh ply = read_ply(file);
@@ -186,9 +199,15 @@ RunData read_run(const fs::path& path) {
       refuse_folder(file, "has " + std::to_string(ply.mesh.triangle_count()) +
                               " triangles where run.json says " + std::to_string(record.triangles) +
                               "; run the scene again with --out");
-    run.fragments.push_back({std::move(ply.mesh), std::move(ply.face_kind), std::move(ply.source),
-                             record.volume, record.mass, record.center_of_mass, record.inertia,
-                             record.watertight});
+    run.fragments.push_back({std::move(ply.mesh),
+                             std::move(ply.face_kind),
+                             std::move(ply.source),
+                             record.volume,
+                             record.mass,
+                             record.center_of_mass,
+                             record.inertia,
+                             record.watertight,
+                             {}});
   }
   return run;
 }

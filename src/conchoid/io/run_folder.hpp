@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "conchoid/io/fragments_io.hpp"
 #include "conchoid/io/run_document.hpp"
 #include "conchoid/io/vtk.hpp"
 
@@ -37,9 +38,9 @@ void write_front_csv(const std::filesystem::path& path, const std::vector<FrontR
 /// Reads front.csv (columns by name, others ignored). Throws InputError with the line.
 std::vector<FrontRow> read_front_csv(const std::filesystem::path& path);
 
-/// Writer of a run folder: frames/frame_0001.vtu … + run.pvd, front.csv, crack.ply,
-/// fragments/fragment_000.ply + .obj, fragments.glb, run.json. Every file appears complete or not at all;
-/// run.json comes last and makes the folder a finished run.
+/// Writer of a run folder: frames/frame_0001.vtu … + run.pvd, front.csv, crack.ply, the pieces in the formats
+/// asked for (fragments/fragment_000.ply, .obj + .mtl, .stl; fragments.glb), run.json. Every file appears
+/// complete or not at all; run.json comes last and makes the folder a finished run.
 class RunFolder {
  public:
   enum class Earlier { replace, keep };
@@ -53,7 +54,7 @@ class RunFolder {
   /// The fine crack surface, trimmed to the body. @param frame  per triangle: frame in which it appeared; may
   /// be empty
   void write_crack(const TriMesh& crack, const std::vector<int>& frame = {});
-  void write_fragments(const std::vector<Fragment>& fragments);
+  void write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats = {});
   void write_run_json(const RunDocument& document);
 
   const std::filesystem::path& path() const { return path_; }
@@ -68,7 +69,7 @@ struct RunData {
   RunDocument document;
   TriMesh crack;  ///< fine crack surface, trimmed to the body
   std::vector<FrontRow> front;
-  std::vector<Fragment> fragments;  ///< largest first, as written
+  std::vector<Fragment> fragments;  ///< largest first, as written; empty unless the run wrote them as PLY
 };
 
 /// Reads a run folder. Throws InputError (file and remedy) for a folder that is foreign, unfinished or

@@ -173,42 +173,121 @@ void skip(Body& body, const Property& property) {
     body.next(property.type);
 }
 
-void read_vertex(Body& body, const Element& element, TriMesh& mesh) {
-  Vec3 x = Vec3::Zero();
+/// What the vertices of a file carry besides their place.
+struct VertexAttributes {
+  std::vector<Vec3> normal;
+  std::vector<Vec2> uv;
+};
+
+/// 0, 1, 2 for the place of `name` in one of the groups, −1 otherwise.
+int component(std::string_view name, std::initializer_list<std::array<std::string_view, 3>> groups) {
+  for (const auto& group : groups)
+    for (int k = 0; k < 3; ++k)
+      if (name == group[static_cast<std::size_t>(k)]) return k;
+  return -1;
+}
+int position_component(const Property& p) {
+  return p.list_count ? -1 : component(p.name, {{"x", "y", "z"}});
+}
+int normal_component(const Property& p) {
+  return p.list_count ? -1 : component(p.name, {{"nx", "ny", "nz"}});
+}
+int uv_component(const Property& p) {
+  return p.list_count ? -1
+                      : component(p.name, {{"s", "t", "-"},
+                                           {"u", "v", "-"},
+                                           {"texture_u", "texture_v", "-"},
+                                           {"texture_s", "texture_t", "-"}});
+}
+
+void read_vertex(Body& body, const Element& element, TriMesh& mesh, VertexAttributes& attributes) {
+  Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+  Vec2 uv = Vec2::Zero();
+  bool has_normal = false, has_uv = false;
   for (const Property& property : element.properties) {
-    const int axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : -1;
-    if (axis < 0 || property.list_count)
-      skip(body, property);
-    else
+    if (const int axis = position_component(property); axis >= 0) {
       x[axis] = body.next(property.type);
+    } else if (const int n = normal_component(property); n >= 0) {
+      normal[n] = body.next(property.type);
+      has_normal = true;
+    } else if (const int t = uv_component(property); t >= 0) {
+      uv[t] = body.next(property.type);
+      has_uv = true;
+    } else {
+      skip(body, property);
+    }
   }
   if (!x.allFinite()) body.fail("a coordinate is not finite; repair it");
+  if (!normal.allFinite() || !uv.allFinite())
+    body.fail("a normal or texture coordinate is not finite; repair or remove it");
   mesh.positions.push_back(x);
+  if (has_normal) attributes.normal.push_back(normal);
+  if (has_uv) attributes.uv.push_back(uv);
 }
 
 bool holds_corners(const Property& property) {
   return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
+bool holds_uv(const Property& property) {
+  return property.list_count && property.name == "texcoord";
+}
+bool holds_material(const Property& property) {
+  return !property.list_count && (property.name == "material_index" || property.name == "material");
+}
 
-void read_face(Body& body, const Element& element, std::uint64_t vertex_count, TriMesh& mesh) {
-  std::vector<NodeId> polygon;
-  for (const Property& property : element.properties) {
-    if (!holds_corners(property)) {
-      skip(body, property);
-      continue;
-    }
-    const std::uint64_t corners = body.next_length(property);
-    if (corners < 3) body.fail("has fewer than three corners");
-    for (std::uint64_t k = 0; k < corners; ++k) {
-      const double index = body.next(property.type);
-      if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
-        body.fail("a vertex index is out of range 0 … " +
-                  std::to_string(static_cast<std::int64_t>(vertex_count) - 1));
-      polygon.push_back(NodeId(static_cast<std::size_t>(index)));
-    }
-    add_polygon(mesh, polygon);
-    polygon.clear();
+void read_corners(Body& body, const Property& property, std::uint64_t vertex_count,
+                  std::vector<NodeId>& polygon) {
+  const std::uint64_t corners = body.next_length(property);
+  if (corners < 3) body.fail("has fewer than three corners");
+  for (std::uint64_t k = 0; k < corners; ++k) {
+    const double index = body.next(property.type);
+    if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
+      body.fail("a vertex index is out of range 0 … " +
+                std::to_string(static_cast<std::int64_t>(vertex_count) - 1));
+    polygon.push_back(NodeId(static_cast<std::size_t>(index)));
   }
+}
+
+void read_face(Body& body, const Element& element, std::uint64_t vertex_count, AttributedMesh& surface,
+               AttributeCollector& attributes) {
+  TriMesh& mesh = surface.mesh;
+  std::vector<NodeId> polygon;
+  std::vector<double> uv;
+  for (const Property& property : element.properties) {
+    if (holds_corners(property)) {
+      read_corners(body, property, vertex_count, polygon);
+    } else if (holds_uv(property)) {
+      for (std::uint64_t k = body.next_length(property); k > 0; --k)
+        uv.push_back(body.next(property.type));
+    } else if (holds_material(property)) {
+      const double id = body.next(property.type);
+      if (!(std::abs(id) < 1e9) || id != std::floor(id)) body.fail("its material is not a whole number");
+      attributes.use_material("material_" + std::to_string(static_cast<int>(id)));
+    } else {
+      skip(body, property);
+    }
+  }
+  const std::size_t first = mesh.triangle_count();
+  add_polygon(mesh, polygon);
+  for (std::size_t t = first; t < mesh.triangle_count(); ++t) {
+    attributes.add_triangle(t);
+    if (uv.size() != 2 * polygon.size()) continue;
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t c = 2 * polygon_corner(t - first, k);
+      attributes.add_uv(t, k, {uv[c], uv[c + 1]});
+    }
+  }
+}
+
+/// Gives the corners what their vertices carry; texture coordinates that faces have of their own stay.
+void spread(const TriMesh& mesh, const VertexAttributes& vertex, AttributeCollector& attributes) {
+  const bool faces_have_uv = attributes.has_uv();
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t node = mesh.corners[TriId(t)][static_cast<std::size_t>(k)].index();
+      if (node < vertex.normal.size()) attributes.add_normal(t, k, vertex.normal[node]);
+      if (!faces_have_uv && node < vertex.uv.size()) attributes.add_uv(t, k, vertex.uv[node]);
+    }
 }
 
 const Element& element_named(const Header& header, std::string_view name, const std::string& file) {
@@ -231,26 +310,30 @@ void require_properties(const Header& header, const std::string& file) {
 
 }  // namespace
 
-TriMesh read_ply(std::string_view bytes, const std::string& file) {
+AttributedMesh read_ply(std::string_view bytes, const std::string& file) {
   TextScanner scan(bytes, file);
   const Header header = read_header(scan, file, bytes.size());
   require_properties(header, file);
   const std::uint64_t vertex_count = element_named(header, "vertex", file).count;
   Body body(header.encoding, scan, file);
-  TriMesh mesh;
+  AttributedMesh surface;
+  VertexAttributes vertex;
+  AttributeCollector attributes;
   for (const Element& element : header.elements)
     for (std::uint64_t i = 0; i < element.count; ++i) {
       if (element.properties.empty()) break;
       body.at(element, i);
       if (element.name == "vertex")
-        read_vertex(body, element, mesh);
+        read_vertex(body, element, surface.mesh, vertex);
       else if (element.name == "face")
-        read_face(body, element, vertex_count, mesh);
+        read_face(body, element, vertex_count, surface, attributes);
       else
         for (const Property& property : element.properties)
           skip(body, property);
     }
-  return mesh;
+  spread(surface.mesh, vertex, attributes);
+  surface.attributes = attributes.finish(surface.mesh.triangle_count());
+  return surface;
 }
 
 void write_ply(std::ostream& out, const TriMesh& mesh) {

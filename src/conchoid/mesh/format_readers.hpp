@@ -4,14 +4,14 @@
 #include <string>
 #include <string_view>
 
-#include "conchoid/mesh/tri_mesh.hpp"
+#include "conchoid/mesh/surface_attributes.hpp"
 
 namespace conchoid {
 
 // One reader and one writer per format; `bytes` is the whole file, `file` its name for messages.
 
-TriMesh read_ply(std::string_view bytes, const std::string& file);
-TriMesh read_obj(std::string_view bytes, const std::string& file);
+AttributedMesh read_ply(std::string_view bytes, const std::string& file);
+AttributedMesh read_obj(std::string_view bytes, const std::string& file);
 TriMesh read_stl(std::string_view bytes, const std::string& file);
 TriMesh read_off(std::string_view bytes, const std::string& file);
 

@@ -17,14 +17,20 @@ namespace {
 
 struct Format {
   std::string_view ending;
-  TriMesh (*read)(std::string_view, const std::string&);
+  AttributedMesh (*read)(std::string_view, const std::string&);
   void (*write)(std::ostream&, const TriMesh&);
 };
 
+/// A format that knows shapes only.
+template <TriMesh (*read)(std::string_view, const std::string&)>
+AttributedMesh bare(std::string_view bytes, const std::string& file) {
+  return {read(bytes, file), {}};
+}
+
 constexpr std::array<Format, 4> formats = {{{".ply", read_ply, write_ply},
                                             {".obj", read_obj, write_obj},
-                                            {".stl", read_stl, write_stl},
-                                            {".off", read_off, write_off}}};
+                                            {".stl", bare<read_stl>, write_stl},
+                                            {".off", bare<read_off>, write_off}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -55,18 +61,23 @@ std::string bytes_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-TriMesh read_mesh(const std::filesystem::path& path) {
+AttributedMesh read_surface(const std::filesystem::path& path) {
   const Format& format = format_of(path);
   const std::string bytes = bytes_of(path);
   const std::string file = path.string();
   if (bytes.empty()) fail_in_file(file, "the mesh file is empty");
-  TriMesh mesh = format.read(bytes, file);
+  AttributedMesh surface = format.read(bytes, file);
+  const TriMesh& mesh = surface.mesh;
   if (mesh.triangle_count() == 0)
     fail_in_file(file, "the mesh has no triangles; export it as a triangulated surface");
   for (std::size_t n = 0; n < mesh.node_count(); ++n)
     if (!mesh.positions[NodeId(n)].allFinite())
       fail_in_file(file, "vertex " + std::to_string(n) + " has a coordinate that is not finite; repair it");
-  return mesh;
+  return surface;
+}
+
+TriMesh read_mesh(const std::filesystem::path& path) {
+  return read_surface(path).mesh;
 }
 
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "conchoid/mesh/tri_mesh.hpp"
+#include "conchoid/mesh/surface_attributes.hpp"
 
 namespace conchoid {
 
@@ -13,6 +13,10 @@ namespace conchoid {
 /// truncated or foreign files, numbers that are not finite, indices out of range. Never allocates more than a
 /// small multiple of the file's size.
 TriMesh read_mesh(const std::filesystem::path& path);
+/// Likewise, with what the file says besides: normals, texture coordinates and materials of .obj (vn, vt,
+/// usemtl) and .ply (vertices: nx ny nz; s t, u v or texture_u texture_v; faces: list texcoord,
+/// material_index or material).
+AttributedMesh read_surface(const std::filesystem::path& path);
 
 /// Writes a surface in the format of the name's ending: .ply (binary little endian, double coordinates: read
 /// back bit for bit), .obj and .off (shortest text that reads back bit for bit), .stl (binary, single

@@ -42,6 +42,10 @@ class TextScanner {
 
 /// Appends the triangles of a polygon, as a fan about its first corner.
 void add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon);
+/// Which corner of the polygon is corner k of the i-th triangle of its fan.
+inline std::size_t polygon_corner(std::size_t i, int k) {
+  return k == 0 ? 0 : i + static_cast<std::size_t>(k);
+}
 
 /// Shortest text that reads back to the same double.
 std::string shortest_text(double value);

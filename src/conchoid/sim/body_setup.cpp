@@ -31,6 +31,7 @@ void scale_and_move(TriMesh& mesh, double scale, const Vec3& origin) {
 
 struct SceneBody {
   TriMesh surface, detailed;
+  SurfaceAttributes attributes;
   BodyModel model;
 };
 
@@ -56,7 +57,9 @@ SceneBody load_body(const Scene& scene) {
     out.model = built_in_model(spec.model);
     out.detailed = out.model.mesh;
   } else {
-    out.detailed = read_mesh(spec.mesh);
+    AttributedMesh read = read_surface(spec.mesh);
+    out.detailed = std::move(read.mesh);
+    out.attributes = std::move(read.attributes);
     require_valid_body(out.detailed, spec.mesh.string());
   }
   for (TriMesh* mesh : {&out.detailed, &out.model.crack})
@@ -246,6 +249,8 @@ BodySetup set_up_body(const Scene& scene) {
   }
   out.surface = std::move(body.surface);
   out.detailed = std::move(body.detailed);
+  out.scene_positions = out.detailed.positions;
+  out.attributes = std::move(body.attributes);
   scale_and_move(out.surface, 1, out.origin);
   scale_and_move(out.detailed, 1, out.origin);
   out.data = free_surface(out.surface);

@@ -1,8 +1,10 @@
 #include "conchoid/sim/run.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
@@ -60,6 +62,14 @@ std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   return sheets;
 }
 
+DressSettings dress_settings(const Scene& scene, const BodySetup& setup) {
+  DressSettings settings;
+  settings.projection = scene.output.projection;
+  settings.texture_size = scene.output.texture_size.value_or(std::cbrt(enclosed_volume(setup.detailed)));
+  settings.crease_angle = scene.output.crease_angle * std::numbers::pi / 180;
+  return settings;
+}
+
 // The detailed body in pieces, and the crack surface inside it.
 void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResult& result) {
   const BodySetup& setup = loop.setup();
@@ -86,9 +96,9 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
     result.crack = join(sheets);
     if (fragments) result.fragments = cut_into_fragments(setup.detailed, {}, settings);
   }
+  dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
   for (Fragment& f : result.fragments) {
-    move_back(f.mesh, setup.origin);
-    f.center_of_mass += setup.origin;
+    move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);
     result.document.fragments.push_back(fragment_record(f));
   }
   move_back(result.crack, setup.origin);
@@ -124,7 +134,8 @@ void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& optio
       {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
       {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
       {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
-      {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")}};
+      {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
+      {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
   if (setup.infinite()) return;
   Box box = bounding_box(setup.detailed);
@@ -134,10 +145,10 @@ void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& optio
   doc.body_volume = enclosed_volume(setup.detailed);
 }
 
-void write_results(const RunResult& result, RunFolder& folder) {
+void write_results(const RunResult& result, const FragmentFormats& formats, RunFolder& folder) {
   folder.write_front_csv(result.front);
   folder.write_crack(result.crack);
-  if (!result.fragments.empty()) folder.write_fragments(result.fragments);
+  if (!result.fragments.empty()) folder.write_fragments(result.fragments, formats);
   folder.write_run_json(result.document);
 }
 
@@ -156,6 +167,8 @@ std::string name(Method method) {
 RunResult run_scene(const Scene& scene, const RunOptions& options) {
   if (options.method == Method::forest && !options.forest)
     throw InputError("method 'forest' needs a trained forest: --database FOREST");
+  const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
+                                                     options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();
   RunResult result;
   RunDocument& doc = result.document;
@@ -175,7 +188,7 @@ RunResult run_scene(const Scene& scene, const RunOptions& options) {
   doc.total_seconds = seconds_since(start);
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (folder) write_results(result, *folder);
+  if (folder) write_results(result, formats, *folder);
   return result;
 }
 

@@ -22,11 +22,12 @@ std::string name(Method method);
 
 struct RunOptions {
   Method method = Method::bem;
-  const RegressionForest* forest = nullptr;     ///< for Method::forest
-  std::optional<int> frames;                    ///< in place of the scene's
-  std::optional<std::filesystem::path> folder;  ///< run folder to write; none: nothing is written
-  bool fragments = true;                        ///< cut the body at the end
-  bool progress = true;                         ///< a line on the terminal
+  const RegressionForest* forest = nullptr;         ///< for Method::forest
+  std::optional<int> frames;                        ///< in place of the scene's
+  std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
+  std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
+  bool fragments = true;                            ///< cut the body at the end
+  bool progress = true;                             ///< a line on the terminal
 };
 
 /// What a run gives, in the scene's coordinates.

@@ -313,6 +313,7 @@ Scene scene_from(const TomlTable& file, const std::string& name, const fs::path&
     scene.cracks.push_back(read_crack(table, folder));
   scene.remote_stress = read_remote_stress(file, scene);
   scene.run = read_run(file);
+  scene.output = read_output(file);
   if (scene.body.infinite() && scene.cracks.empty())
     file.fail(
         {}, "model = \"infinite\" has no surface and there is no crack: nothing to compute; add a [[crack]]");

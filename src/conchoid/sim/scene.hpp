@@ -10,6 +10,7 @@
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 #include "conchoid/mesh/regions.hpp"
+#include "conchoid/sim/output_spec.hpp"
 
 namespace conchoid {
 
@@ -100,6 +101,7 @@ struct Scene {
   /// Stress at infinity [Pa], for the infinite body.
   Mat3 remote_stress = Mat3::Zero();
   RunSpec run;
+  OutputSpec output;
 };
 
 /// Reads a scene file. Throws InputError "file:line: what, remedy".

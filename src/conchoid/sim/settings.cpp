@@ -46,11 +46,14 @@ std::string value_text(const Setting& s) {
   std::string text;
   if (s.type == SettingType::vectors)
     text = s.length ? fmt::format("lists of {} numbers", s.length) : "lists of numbers";
+  else if (s.type == SettingType::texts && !s.choices.empty())
+    text = fmt::format("list of \"{}\"", fmt::join(s.choices, "\", \""));
   else if (s.length)
     text = fmt::format("{} {}", s.length, type_name(s));
   else if (s.choices.empty())
     text = type_name(s);
-  if (!s.choices.empty()) text = fmt::format("\"{}\"", fmt::join(s.choices, "\", \""));
+  if (!s.choices.empty() && s.type == SettingType::text)
+    text = fmt::format("\"{}\"", fmt::join(s.choices, "\", \""));
   if (!s.unit.empty()) text += fmt::format(", {}", s.unit);
   if (const std::string range = s.range.text(); !range.empty()) text += ", " + range;
   return text;
@@ -110,6 +113,7 @@ const std::vector<SettingTable>& setting_tables() {
       {"crack", true, true, "A crack that is there from the start."},
       {"remote_stress", false, true, "Stress at infinity, for model = \"infinite\"."},
       {"run", false, true, "How the simulation is run."},
+      {"output", false, true, "What the pieces are written as, and how they look."},
       {"database", false, false,
        "How the loads of the runs are drawn: a traction on one region, and its opposite on another."},
   };
@@ -251,6 +255,33 @@ const std::vector<Setting>& settings() {
        "1e-4",
        "pieces below this share of the body's volume are joined to their neighbour",
        {.low = 0, .high = 1, .high_included = false}},
+
+      {"output",
+       "formats",
+       texts,
+       "",
+       "[\"ply\", \"obj\", \"glb\"]",
+       "files of the pieces; `run --format` takes its place. Without ply, `compare` and `picture` cannot "
+       "show "
+       "the pieces",
+       {},
+       0,
+       {"ply", "obj", "glb", "stl"}},
+      {"output",
+       "projection",
+       text,
+       "",
+       "\"box\"",
+       "texture coordinates of fracture faces: box, along the coordinate axis nearest to the normal, so that "
+       "facing pieces match; planar, along one direction for each piece",
+       {},
+       0,
+       {"box", "planar"}},
+      {"output", "texture_size", number, "m", "",
+       "length that a texture covers on fracture faces; without it the body's size (cube root of the volume)",
+       above(0)},
+      {"output", "crease_angle", number, "°", "35.0",
+       "normals are smooth over edges that bend less; never from original to fracture", between(0, 180)},
 
       {"database", "runs", integer, "runs", "300", "number of runs", between(1, 10000000)},
       {"database", "seed", integer, "", "1", "of the loads; run i is the same whatever the number of runs",

@@ -30,8 +30,8 @@ struct Setting {
   std::string_view standard;  ///< default as TOML text; empty: none
   std::string_view help;
   SettingRange range = {};
-  std::size_t length = 0;  ///< numbers: how many; vectors: numbers in each; texts: how many
-  std::vector<std::string_view> choices = {};  ///< text: allowed values; empty: any
+  std::size_t length = 0;  ///< numbers: how many; vectors: numbers in each; texts: how many, 0: any
+  std::vector<std::string_view> choices = {};  ///< text, texts: allowed values; empty: any
 };
 
 /// One table of the file: [name], or [[name]] when it may be repeated.

@@ -173,6 +173,15 @@ void TomlTable::read(std::string_view key, bool& value) const {
   value = *node->value<bool>();
 }
 
+void TomlTable::require_choice(std::string_view key, const std::string& text) const {
+  const Setting& s = content_->setting(key);
+  if (s.choices.empty() || std::find(s.choices.begin(), s.choices.end(), text) != s.choices.end()) return;
+  const std::string like = nearest_name(text, s.choices);
+  fail(key, fmt::format("{} = \"{}\" does not exist; {}choose from \"{}\"", content_->path(key), text,
+                        like.empty() ? "" : fmt::format("did you mean \"{}\"? Otherwise ", like),
+                        fmt::join(s.choices, "\", \"")));
+}
+
 void TomlTable::read(std::string_view key, std::string& value) const {
   const Setting& s = content_->setting(key);
   const toml::node* node = content_->table->get(key);
@@ -183,12 +192,7 @@ void TomlTable::read(std::string_view key, std::string& value) const {
   if (text.empty())
     fail(key, fmt::format("{} is empty; give a {}", content_->path(key),
                           s.type == SettingType::file ? "file name" : "name"));
-  if (!s.choices.empty() && std::find(s.choices.begin(), s.choices.end(), text) == s.choices.end()) {
-    const std::string like = nearest_name(text, s.choices);
-    fail(key, fmt::format("{} = \"{}\" does not exist; {}choose from \"{}\"", content_->path(key), text,
-                          like.empty() ? "" : fmt::format("did you mean \"{}\"? Otherwise ", like),
-                          fmt::join(s.choices, "\", \"")));
-  }
+  require_choice(key, text);
   value = text;
 }
 
@@ -247,11 +251,15 @@ void TomlTable::read(std::string_view key, std::vector<std::string>& value) cons
   const toml::node* node = content_->table->get(key);
   if (!node) return;
   const toml::array* array = node->as_array();
-  if (!array || array->size() != s.length || !array->is_homogeneous(toml::node_type::string))
-    fail(key, fmt::format("{} must be a list of {} texts in quotes", content_->path(key), s.length));
+  if (!array || (s.length > 0 && array->size() != s.length) ||
+      (!array->empty() && !array->is_homogeneous(toml::node_type::string)))
+    fail(key, fmt::format("{} must be a list of {}texts in quotes", content_->path(key),
+                          s.length > 0 ? fmt::format("{} ", s.length) : ""));
   std::vector<std::string> texts;
-  for (const toml::node& element : *array)
+  for (const toml::node& element : *array) {
     texts.push_back(*element.value<std::string>());
+    require_choice(key, texts.back());
+  }
   value = texts;
 }
 

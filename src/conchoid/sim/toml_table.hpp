@@ -57,6 +57,7 @@ class TomlTable {
   struct Content;
   explicit TomlTable(std::shared_ptr<const Content> content);
   void require_key(std::string_view key) const;
+  void require_choice(std::string_view key, const std::string& text) const;
   std::shared_ptr<const Content> content_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "conchoid/mesh/tri_mesh.hpp"
+#include "conchoid/mesh/surface_attributes.hpp"
 
 namespace conchoid {
 
@@ -20,6 +20,7 @@ struct Fragment {
   Vec3 center_of_mass = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass [kg m²]
   bool watertight = false;
+  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before dress_fragments()
 };
 
 struct FragmentSettings {

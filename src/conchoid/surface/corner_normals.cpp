@@ -1,4 +1,4 @@
-#include "conchoid/io/corner_normals.hpp"
+#include "conchoid/surface/corner_normals.hpp"
 
 #include <cmath>
 
@@ -23,7 +23,8 @@ std::vector<std::array<Vec3, 3>> corner_normals(const TriMesh& mesh, const std::
     for (std::size_t k = 0; k < 3; ++k) {
       Vec3 sum = Vec3::Zero();
       for (TriId other : around[mesh.corners[TriId(t)][k]])
-        if (same_kind(t, other.index()) && normal[t].dot(normal[other.index()]) >= crease)
+        if (same_kind(t, other.index()) &&
+            (normal[t].isZero(0) || normal[t].dot(normal[other.index()]) >= crease))
           sum += area[other.index()];
       const double length = sum.norm();
       normals[t][k] = length > 0                    ? Vec3(sum / length)
