@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/io/ply.hpp"
+#include "conchoid/mesh/formats.hpp"
 #include "conchoid/surface/corner_normals.hpp"
+#include "conchoid/surface/dress_fragments.hpp"
 #include "io/samples.hpp"
 
 #ifdef CONCHOID_HAVE_ASSIMP
@@ -60,6 +63,24 @@ std::string accessed(const Glb& glb, const Json& accessor, std::size_t element_s
   EXPECT_LE(offset + length, glb.json["buffers"][0]["byteLength"].get<std::size_t>());
   EXPECT_EQ(length, accessor["count"].get<std::size_t>() * element_size);
   return glb.bytes.substr(offset, length);
+}
+
+/// The broken cube with two materials on its outside and texture coordinates.
+std::vector<Fragment> painted_cube(double height) {
+  std::vector<Fragment> pieces = broken_cube(height);
+  for (Fragment& piece : pieces) {
+    SurfaceAttributes paint;
+    paint.materials = {"wood", "steel"};
+    for (std::size_t t = 0; t < 12; ++t) {
+      paint.material.push_back(t < 8 ? 0 : 1);
+      const double s = static_cast<double>(t);
+      paint.uv.push_back({Vec2(s / 12, 0), Vec2((s + 1) / 12, 0.25), Vec2(s / 12, 0.5)});
+    }
+    std::vector<Fragment> one{piece};
+    dress_fragments(one, piece.mesh, paint, {});
+    piece = one[0];
+  }
+  return pieces;
 }
 
 void expect_valid_primitive(const Glb& glb, const Json& primitive, std::size_t triangles) {
@@ -170,12 +191,77 @@ TEST(FragmentObj, TwoGroupsAndAMaterialFile) {
   }
 }
 
+TEST(FragmentObj, ReadsBackWithEveryValueOfEveryCorner) {
+  const ScratchFolder folder;
+  const Fragment piece = painted_cube(0.1)[0];
+  write_fragment_obj(folder / "f.obj", piece);
+  const auto [mesh, a] = read_surface(folder / "f.obj");
+  EXPECT_EQ(mesh.positions, piece.mesh.positions);
+  EXPECT_EQ(a.materials, (std::vector<std::string>{"wood", "steel", "fracture"}));
+  ASSERT_EQ(mesh.triangle_count(), 12u);
+  // faces are grouped by material: look each one up by its corners
+  for (std::size_t t = 0; t < 12; ++t) {
+    const auto same = std::find(piece.mesh.corners.begin(), piece.mesh.corners.end(), mesh.corners[TriId(t)]);
+    ASSERT_NE(same, piece.mesh.corners.end());
+    const auto from = static_cast<std::size_t>(same - piece.mesh.corners.begin());
+    EXPECT_EQ(a.material[t], piece.attributes.material[from]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR((a.uv[t][k] - piece.attributes.uv[from][k]).norm(), 0, 1e-7);
+      EXPECT_NEAR((a.normal[t][k] - piece.attributes.normal[from][k]).norm(), 0, 1e-7);
+    }
+  }
+}
+
+TEST(FragmentPly, MaterialsAndTextureCoordinatesReadBack) {
+  const ScratchFolder folder;
+  const Fragment piece = painted_cube(0.1)[0];
+  write_fragment_ply(folder / "f.ply", piece);
+  const auto [mesh, a] = read_surface(folder / "f.ply");
+  EXPECT_EQ(mesh.corners, piece.mesh.corners);
+  for (std::size_t t = 0; t < 12; ++t) {
+    EXPECT_EQ(a.materials[static_cast<std::size_t>(a.material[t])],
+              "material_" + std::to_string(piece.attributes.material[t]));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR((a.uv[t][k] - piece.attributes.uv[t][k]).norm(), 0, 1e-7);
+  }
+  EXPECT_EQ(read_ply(folder / "f.ply").face_kind, piece.face_kind);
+}
+
+TEST(FragmentsGlb, EveryMaterialIsAPrimitiveWithTextureCoordinates) {
+  const ScratchFolder folder;
+  const auto pieces = painted_cube(0.1);
+  write_fragments_glb(folder / "f.glb", pieces);
+  const Glb glb = opened(file_content(folder / "f.glb"));
+  ASSERT_EQ(glb.json["materials"].size(), 3u);
+  EXPECT_EQ(glb.json["materials"][2]["name"], "fracture");
+  std::size_t corners = 0;
+  for (const Json& mesh : glb.json["meshes"])
+    for (const Json& primitive : mesh["primitives"]) {
+      const Json& uv = glb.json["accessors"][primitive["attributes"]["TEXCOORD_0"].get<std::size_t>()];
+      EXPECT_EQ(uv["type"], "VEC2");
+      EXPECT_EQ(accessed(glb, uv, 8).size(), 8 * uv["count"].get<std::size_t>());
+      const Json& index = glb.json["accessors"][primitive["indices"].get<std::size_t>()];
+      expect_valid_primitive(glb, primitive, index["count"].get<std::size_t>() / 3);
+      corners += index["count"].get<std::size_t>();
+    }
+  EXPECT_EQ(corners, 2u * 36u);
+}
+
+TEST(FragmentFormats, AreNamed) {
+  const FragmentFormats some = formats_from_names({"glb", "stl"}, "--format");
+  EXPECT_TRUE(some.glb && some.stl);
+  EXPECT_FALSE(some.ply || some.obj);
+  EXPECT_THROW(formats_from_names({"fbx"}, "scene.toml:3"), InputError);
+}
+
 #ifdef CONCHOID_HAVE_ASSIMP
 namespace {
 
 struct Counts {
   std::size_t faces = 0, places = 0;
   double volume = 0;
+  std::set<std::string> materials;
+  std::size_t with_uv = 0;  ///< faces with texture coordinates
 };
 
 /// What an independent reader finds: triangles, different vertex places, enclosed volume.
@@ -189,6 +275,8 @@ Counts counted(const std::filesystem::path& path) {
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];
     counts.faces += mesh.mNumFaces;
+    if (mesh.HasTextureCoords(0)) counts.with_uv += mesh.mNumFaces;
+    counts.materials.insert(scene->mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
     for (unsigned v = 0; v < mesh.mNumVertices; ++v)
       places.insert({mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z});
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
@@ -208,15 +296,21 @@ Counts counted(const std::filesystem::path& path) {
 
 TEST(FragmentFiles, AnotherReaderFindsTheSamePieces) {
   const ScratchFolder folder;
-  const auto pieces = broken_cube(0.1);
+  const auto pieces = painted_cube(0.1);
   write_fragment_ply(folder / "f.ply", pieces[0]);
   write_fragment_obj(folder / "f.obj", pieces[0]);
   write_fragments_glb(folder / "f.glb", {pieces[0]});
-  for (const char* name : {"f.ply", "f.obj", "f.glb"}) {
+  write_mesh(folder / "f.stl", pieces[0].mesh);
+  for (const char* name : {"f.ply", "f.obj", "f.glb", "f.stl"}) {
     const Counts counts = counted(folder / name);
     EXPECT_EQ(counts.faces, 12u) << name;
     EXPECT_EQ(counts.places, 8u) << name;
     EXPECT_NEAR(counts.volume, 0.6, 1e-6) << name;
+  }
+  for (const char* name : {"f.obj", "f.glb"}) {
+    const Counts counts = counted(folder / name);
+    EXPECT_EQ(counts.materials, (std::set<std::string>{"wood", "steel", "fracture"})) << name;
+    EXPECT_EQ(counts.with_uv, 12u) << name;
   }
 }
 #endif
