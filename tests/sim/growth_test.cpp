@@ -37,9 +37,9 @@ Vec3 start_normal(const RunResult& result) {
   return area.normalized();
 }
 
-class PulledCube : public testing::TestWithParam<double> {};
+class PulledCubeAt : public testing::TestWithParam<double> {};
 
-TEST_P(PulledCube, OneCrackSeparatesItIntoTwoPieces) {
+TEST_P(PulledCubeAt, OneCrackSeparatesItIntoTwoPieces) {
   const RunResult result = run(cube_text(GetParam(), 1e8));
   EXPECT_EQ(result.document.stop, "separated");
   EXPECT_EQ(result.cracks, 1);
@@ -64,7 +64,25 @@ TEST_P(PulledCube, OneCrackSeparatesItIntoTwoPieces) {
   RecordProperty("smaller", test::text(result.fragments[1].volume));
 }
 
-INSTANTIATE_TEST_SUITE_P(Slopes, PulledCube, testing::Values(0.0, 45.0));
+INSTANTIATE_TEST_SUITE_P(Slopes, PulledCubeAt, testing::Values(0.0, 45.0));
+
+// A pair of forces at 45° has a moment and leaves two faces free, so no stress in the cube points along the
+// pull. Tractions σ·n of a uniaxial stress on all four faces do that: the crack starts across the pull.
+TEST(PulledCube, UniaxialStressAtFortyFiveDegreesStartsACrackAcrossIt) {
+  const Vec3 t(5e7, 0, 5e7);
+  const RunResult result =
+      run("[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+          test::boundary_text("z+", "traction", t) + test::boundary_text("z-", "traction", -t) +
+          test::boundary_text("x+", "traction", t) + test::boundary_text("x-", "traction", -t));
+  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.cracks, 1);
+  ASSERT_EQ(result.fragments.size(), 2u);
+  EXPECT_NEAR(result.fragments[0].volume + result.fragments[1].volume, 1, 1e-9);
+  const double along_pull = std::abs(start_normal(result).dot(Vec3(1, 0, 1).normalized()));
+  EXPECT_GT(along_pull, std::cos(10 * std::numbers::pi / 180));
+  RecordProperty("degrees_to_pull",
+                 test::text(std::acos(std::min(1.0, along_pull)) * 180 / std::numbers::pi));
+}
 
 TEST(WeakLoad, LeavesTheCubeIntact) {
   const RunResult result = run(cube_text(0, 5e7));
@@ -177,6 +195,33 @@ TEST(EdgeCrack, SlidingModeTurnsAwayFromThePlane) {
 TEST(EdgeCrack, SlidingModeGrowsOn) {
   const RunResult result = run(edge_cube_text({1.2e7, 0, 0}, 0.1));
   EXPECT_GT(result.largest_growth, 0.3);
+}
+
+// The classic of torn chalk: in the middle of the front K_II vanishes and the crack goes straight on, towards
+// the ends it turns up on one side and down on the other; half a turn about the x axis changes nothing.
+TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
+  const RunResult result = run(edge_cube_text({0, 6e6, 0}, 0.1));
+  int middle = 0, ends = 0;
+  for (const FrontRow& row : result.front) {
+    if (row.frame != 1) continue;
+    EXPECT_LT(std::abs(row.intensity[0]), 0.02 * std::abs(row.intensity[2]));
+    if (std::abs(row.position.y()) < 0.01) {
+      EXPECT_LT(std::abs(row.kink_angle), 0.02);
+      ++middle;
+    }
+    if (std::abs(row.position.y()) > 0.4) {
+      EXPECT_GT(-row.kink_angle * row.position.y(), 0.1);
+      ++ends;
+    }
+  }
+  EXPECT_EQ(middle, 1);
+  EXPECT_EQ(ends, 2);
+  EXPECT_EQ(result.document.stop, "separated");
+  ASSERT_EQ(result.fragments.size(), 2u);
+  EXPECT_NEAR(result.fragments[0].volume, 0.5, 0.02);
+  EXPECT_GT(largest_height(result.crack), 0.4);
+  RecordProperty("height", test::text(largest_height(result.crack)));
+  RecordProperty("volume", test::text(result.fragments[0].volume));
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, EdgeCrackCube, testing::Values(0.05, 0.08, 0.1));

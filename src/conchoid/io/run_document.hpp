@@ -20,7 +20,8 @@ struct RunSetting {
 /// What one frame did and cost [s].
 struct FrameRecord {
   int frame = 0;
-  std::string source;               ///< who gave the opening: "bem", "forest", "steady", …
+  std::string
+      source;  ///< who gave the opening: "bem", "forest", "steady", "carried" (nothing could be solved), …
   std::size_t crack_triangles = 0;  ///< BEM crack triangles after the frame
   std::size_t front_nodes = 0;
   double max_K_eff = 0;  ///< largest effective intensity along the fronts [Pa √m]

@@ -20,8 +20,10 @@ namespace conchoid {
 namespace {
 
 constexpr double kAlongSurface = 0.9;  // cosine between σ1 and the surface normal above which no crack starts
-constexpr double kLargestSample =
-    3;  // × r̄: beyond it linear elasticity says nothing, a piece hangs by a thread
+// × r̄: openings beyond it, a triangle behind the front, say nothing in linear elasticity: a piece hangs by a
+// thread. No sample is taken from them, and the thread breaks straight ahead.
+constexpr double kLargestOpening = 3;
+constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 
 CrackSheet initial_sheet(const BodySetup& setup) {
@@ -129,7 +131,9 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     const double length = crack_.sheet.state[point.node] == FrontState::arrested
                               ? 0
                               : advance_length(K_eff, scene_.material.toughness, setup_.crack_edge);
-    const double angle = kink_angle(o.intensity, m_);
+    const bool thread = opening_from_intensity(o.intensity, setup_.crack_edge, m_).norm() >
+                        kLargestOpening * setup_.crack_edge;
+    const double angle = thread ? 0 : kink_angle(o.intensity, m_);
     largest_intensity_ = std::max(largest_intensity_, K_eff);
     if (length > 0) steps.push_back({point.node, f, angle, K_eff});
     FrontRow row;
@@ -143,11 +147,11 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     row.kink_angle = angle;
     result.front.push_back(row);
     result.largest_growth = std::max(result.largest_growth, crack_.sheet.travelled[point.node]);
-    if (auto sample = predictor_ ? std::nullopt : history_.sample(crack_, point)) {
+    if (auto sample = solved() ? history_.sample(crack_, point) : std::nullopt) {
       const FrontFrame& before = history_.find(point.correlation)->frame;
       sample->opening = {o.opening.dot(before.e1), o.opening.dot(before.e2), o.opening.dot(before.e3)};
       const double size = o.opening.norm();
-      if (size > 0 && size < kLargestSample * setup_.crack_edge) result.samples.add(*sample);
+      if (size > 0 && size < kLargestOpening * setup_.crack_edge) result.samples.add(*sample);
     }
     if (!o.in_range && !warned_) {
       warned_ = true;
@@ -181,7 +185,7 @@ void FrameLoop::write_frame(int frame, RunFolder& folder, const std::vector<Fron
     if (const NodeId c = crack_.points[i].correlation; c.valid() && crack_.node_in_cut[c].valid())
       data.opening[crack_.node_in_cut[c]] = openings[i].opening;
   }
-  const bool solved = !predictor_ || frame == 1;
+  const bool solved = predictor_ ? frame == 1 : this->solved();
   if (solved) data.opening = bem_.body().opening();
   if (solved && !setup_.infinite()) {
     data.displacement = bem_.body().displacement();
@@ -207,6 +211,24 @@ std::string FrameLoop::guarded_frame(int frame, RunResult& result, RunFolder* fo
   }
 }
 
+std::vector<FrontOpening> FrameLoop::open(FrameRecord& record, RunResult& result) {
+  if (predictor_) return predictor_->open(crack_);
+  try {
+    std::vector<FrontOpening> openings = bem_.open(crack_);
+    carried_ = 0;
+    return openings;
+  } catch (const ComputationError& error) {
+    if (record.frame == 1 || carried_ == kMostCarried) throw;
+    if (carried_++ == 0) {
+      result.document.warnings.push_back(fmt::format(
+          "frame {}: {}; the front goes straight on with K as last solved", record.frame, error.what()));
+      warning(result.document.warnings.back());
+    }
+    record.source = "carried";
+    return carried_openings(crack_, history_, m_);
+  }
+}
+
 std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* folder) {
   RunDocument& doc = result.document;
   Clock clock;
@@ -214,14 +236,14 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   record.frame = frame;
   record.source = predictor_ && frame > 1 ? predictor_->name() : "bem";
   record.front_nodes = crack_.points.size();
-  const std::vector<FrontOpening> openings = predictor_ ? predictor_->open(crack_) : bem_.open(crack_);
+  const std::vector<FrontOpening> openings = open(record, result);
   record.opening_seconds = clock.lap();
   doc.frames = frame;
   const std::vector<FrontStep> steps = record_and_step(frame, openings, result);
   const std::size_t fronts_before = crack_.sheet.fronts.size();
   if (folder) write_frame(frame, *folder, openings);
   record.other_seconds = clock.lap();
-  if (!predictor_) start_cracks(result);
+  if (solved()) start_cracks(result);
   const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
   if (!steps.empty())
     advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge);

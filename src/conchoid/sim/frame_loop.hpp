@@ -26,6 +26,9 @@ class FrameLoop {
   struct Clock;
   std::string guarded_frame(int frame, RunResult& result, RunFolder* folder);
   std::string compute_frame(int frame, RunResult& result, RunFolder* folder);
+  /// Opening and K of the frame. A later frame whose system is singular is carried, a few times in a row.
+  std::vector<FrontOpening> open(FrameRecord& record, RunResult& result);
+  bool solved() const { return !predictor_ && carried_ == 0; }
   void start_cracks(RunResult& result);
   std::vector<FrontStep> record_and_step(int frame, const std::vector<FrontOpening>& openings,
                                          RunResult& result);
@@ -44,6 +47,7 @@ class FrameLoop {
   double rayleigh_speed_;
   double largest_intensity_ = 0;  // K_eff of the frame
   int started_ = 0;
+  int carried_ = 0;  // frames in a row that could not be solved
   bool warned_ = false;
 };
 

@@ -72,6 +72,12 @@ class PredictedOpening : public OpeningSource {
   FrontHistory history_;
 };
 
+/// Where nothing can be solved any more, as a piece hangs by a ligament too thin for the elements: each point
+/// goes straight ahead with the K_eff that its correlation node (or itself, if it stayed) had when last
+/// solved. Points without one take the mean of the nearest on their front that have one.
+std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
+                                           const ElasticConstants& m);
+
 /// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
                                                    double resolution, const SifSettings& sif);

@@ -1,3 +1,4 @@
+#include "conchoid/crack/criterion.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
@@ -100,6 +101,22 @@ std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
   }
   fill_gaps(crack, known, out);
   history_.remember(crack, out);
+  return out;
+}
+
+std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
+                                           const ElasticConstants& m) {
+  std::vector<FrontOpening> out(crack.points.size());
+  std::vector<char> known(out.size(), 0);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const FrontPoint& point = crack.points[i];
+    const FrontHistory::Entry* last = history.find(point.node);
+    if (!last && point.correlation.valid()) last = history.find(point.correlation);
+    if (!last) continue;
+    known[i] = 1;
+    out[i].intensity = out[i].node_intensity = effective_intensity(last->intensity, m) * Vec3::UnitX();
+  }
+  fill_gaps(crack, known, out);
   return out;
 }
 
