@@ -200,7 +200,7 @@ TEST(EdgeCrack, SlidingModeGrowsOn) {
 // The classic of torn chalk: in the middle of the front K_II vanishes and the crack goes straight on, towards
 // the ends it turns up on one side and down on the other; half a turn about the x axis changes nothing.
 TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
-  const RunResult result = run(edge_cube_text({0, 6e6, 0}, 0.1));
+  const RunResult result = run(edge_cube_text({0, 3e6, 0}, 0.1));
   int middle = 0, ends = 0;
   for (const FrontRow& row : result.front) {
     if (row.frame != 1) continue;
