@@ -145,6 +145,33 @@ TEST(Fragments, PartialSheetLeavesASlit) {
     EXPECT_NEAR(f[0].mesh.positions[id].x(), 0.1, 1e-15);
 }
 
+// One row of triangles, front on both long sides: all edges across it join front nodes.
+TEST(Fragments, NarrowSlitsStayClosedAndManifold) {
+  const TriMesh body = cube(3);
+  for (const double end : {0.8, 0.3}) {
+    const TriMesh row =
+        sheet(0.1, 0.2, -0.8, end, 1, 7, [](double u, double v) { return Vec3(u, v, 0.03 + 0.1 * u); });
+    const auto f = cut_into_fragments(body, {row}, {});
+    ASSERT_EQ(f.size(), 1u);
+    EXPECT_NEAR(check(f, body).volume, 1.0, 1e-14);
+    double fracture = 0;
+    for (std::size_t t = 0; t < f[0].mesh.triangle_count(); ++t)
+      if (f[0].face_kind[t] == FaceKind::fracture) fracture += area_vector(f[0].mesh, TriId(t)).norm();
+    EXPECT_NEAR(fracture, 2 * 0.1 * std::sqrt(1.01) * (std::min(end, 0.5) + 0.5), 1e-13);
+  }
+}
+
+TEST(Fragments, ALoneTriangleOpensNothing) {
+  const TriMesh body = cube(3);
+  TriMesh lone;
+  lone.positions = {Vec3(0.1, 0, 0), Vec3(0.2, 0, 0), Vec3(0.1, 0.1, 0.05)};
+  lone.corners = {{NodeId(0), NodeId(1), NodeId(2)}};
+  const auto f = cut_into_fragments(body, {lone}, {});
+  ASSERT_EQ(f.size(), 1u);
+  EXPECT_NEAR(check(f, body).volume, 1.0, 1e-14);
+  EXPECT_EQ(f[0].mesh.triangle_count(), body.triangle_count());
+}
+
 TEST(Fragments, CrackInsideIsACavityOfTheOnePiece) {
   const TriMesh body = cube(2);
   const auto f =

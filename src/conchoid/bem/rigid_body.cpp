@@ -78,26 +78,6 @@ AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const Ela
   return field;
 }
 
-std::vector<int> connected_parts(const TriMesh& surface) {
-  std::vector<std::size_t> parent(surface.node_count());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const auto& c : surface.corners)
-    for (int k = 1; k < 3; ++k) {
-      const std::size_t a = root(c[0].index()), b = root(c[k].index());
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  std::vector<int> part(surface.node_count());
-  int count = 0;
-  for (std::size_t i = 0; i < part.size(); ++i)
-    part[i] = root(i) == i ? count++ : part[root(i)];
-  return part;
-}
-
 namespace {
 
 // Six orthonormal motions of the given nodes.

@@ -30,7 +30,4 @@ AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const Ela
 /// a cavity's surface has its own six, which move nothing but itself.
 std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const BoundaryData& data);
 
-/// Connected part (0, 1, …) of each node.
-std::vector<int> connected_parts(const TriMesh& surface);
-
 }  // namespace conchoid

@@ -16,8 +16,10 @@ namespace {
 constexpr double kShortest = 0.5, kLongest = 1.5;  ///< × h: spacing of the markers
 constexpr double kRowAfter = 0.5;      ///< × h: distance from the last row at which a marker leaves the next
 constexpr double kLastRowAfter = 0.1;  ///< × h: the same at the end of a run
-constexpr int kMostParts = 64;         ///< edges of initial triangles are divided into at most this many
-constexpr double kRound = 1e-6;        ///< so that r̄/h = 20 + round-off is 20
+constexpr double kFaceDistance = 0.5;  ///< × h: how far from a face a marker stops
+constexpr std::size_t kOwnMarkers = 4;  ///< markers on either side whose rows are not in a marker's way
+constexpr int kMostParts = 64;          ///< edges of initial triangles are divided into at most this many
+constexpr double kRound = 1e-6;         ///< so that r̄/h = 20 + round-off is 20
 
 double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
   const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
@@ -90,6 +92,7 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
       marker.direction = (1 - node.s) * marker.direction + node.s * last.direction;
       marker.direction_before = (1 - node.s) * marker.direction_before + node.s * last.direction_before;
       marker.coarse = NodeId();
+      marker.arrested = marker.arrested && last.arrested;
       break;
     }
   }
@@ -100,7 +103,8 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
 
 }  // namespace
 
-FineFront::FineFront(const CrackSheet& sheet, const FineFrontSettings& settings) : settings_(settings) {
+FineFront::FineFront(const CrackSheet& sheet, const FineFrontSettings& settings)
+    : settings_(settings), faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
   settings_.spacing = std::min(settings.spacing, settings.resolution / 4);
   append_parts(sheet);
 }
@@ -112,8 +116,13 @@ void FineFront::append_parts(const CrackSheet& sheet) {
     edge = std::max(edge, mean_front_edge(sheet.mesh, sheet.fronts[f]));
   const int parts = std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostParts);
   const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
-  for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f)
+  const std::vector<int> part = connected_parts(surface_);
+  for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
     curves_.push_back(initial_curve(surface_, fine, sheet.fronts[f]));
+    curves_.back().part = part[curves_.back().markers.front().node.index()];
+  }
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), part[surface_.corners[TriId(t)][0].index()]);
   birth_.resize(surface_.triangle_count(), sheet.frame);
   known_triangles_ = sheet.mesh.triangle_count();
 }
@@ -136,8 +145,19 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers)
       marker.direction_before = marker.direction;
-    for (int step = 0; step < count; ++step)
-      if (move_markers(curve, steps, toughness, step, count)) leave_row(curve, kRowAfter * settings_.spacing);
+    std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
+                       sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
+                           FrontState::outside);
+    for (int step = 0; step < count; ++step) {
+      std::vector<Vec3> from;
+      for (const Marker& marker : curve.markers)
+        from.push_back(marker.position);
+      if (!move_markers(curve, steps, toughness, step, count)) continue;
+      stop_at_faces(curve, from, inside);
+      leave_row(curve, kRowAfter * settings_.spacing);
+    }
     append_motions(sheet, curve, steps, motions);
   }
   return motions;
@@ -149,6 +169,7 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
       settings_.turn_within > 0 ? std::min(1.0, (step + 1) / (count * settings_.turn_within)) : 1.0;
   bool moved = false;
   for (Marker& marker : curve.markers) {
+    if (marker.arrested) continue;
     const double length =
         steps.length(marker.parameter, toughness(marker.position), settings_.resolution) / count;
     if (!(length > 0)) continue;
@@ -164,6 +185,44 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
     moved = true;
   }
   return moved;
+}
+
+void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
+                              const std::vector<bool>& inside) const {
+  const std::size_t n = curve.size();
+  const double h = settings_.spacing;
+  std::vector<NodeId> own;
+  for (std::size_t i = 0; i < n; ++i) {
+    Marker& marker = curve.markers[i];
+    const Vec3 way = marker.position - from[i];
+    const auto edge = static_cast<std::size_t>(std::max(0.0, marker.parameter));
+    if (marker.arrested || way.isZero(0) || (edge < inside.size() && !inside[edge])) continue;
+    own.clear();
+    for (std::size_t k = 0, a = i, b = i; k <= kOwnMarkers; ++k) {
+      own.push_back(curve.markers[a].node);
+      own.push_back(curve.markers[b].node);
+      a = curve.previous(a);
+      b = curve.next(b);
+    }
+    std::sort(own.begin(), own.end());
+    const Vec3 ahead = marker.position + kFaceDistance * h * way.normalized();
+    const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
+    if (!hit) continue;
+    const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
+    if (hit->part != curve.part && at > way.norm()) continue;  // not there yet
+    marker.arrested = true;
+    const double stop =
+        hit->part == curve.part ? std::max(0.0, at - kFaceDistance * h) : at + kFaceDistance * h;
+    marker.position = from[i] + std::min(stop, length) * way.normalized();
+  }
+}
+
+std::vector<NodeId> FineFront::stopped_riders() const {
+  std::vector<NodeId> out;
+  for (const MarkerCurve& curve : curves_)
+    for (const Marker& marker : curve.markers)
+      if (marker.arrested && marker.coarse.valid()) out.push_back(marker.coarse);
+  return out;
 }
 
 void FineFront::leave_row(MarkerCurve& curve, double least) {
@@ -185,12 +244,15 @@ void FineFront::leave_row(MarkerCurve& curve, double least) {
                                        return smooth_middle(row, a, b);
                                      }};
   const Strip strip = append_strip(surface_, row, strip_settings);
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), curve.part);
   birth_.resize(surface_.triangle_count(), frame_);
   double period = 0;
   for (const Marker& marker : curve.markers)
     period = std::max(period, std::floor(marker.parameter) + 1);
   MarkerCurve next;
   next.closed = curve.closed;
+  next.part = curve.part;
   for (const StripNode& node : strip.curve)
     next.markers.push_back(marker_of(node, curve, surface_, row.moved, period));
   curve = std::move(next);
@@ -272,6 +334,8 @@ void FineFront::close(MarkerCurve& curve) {
   const NodeId tip = surface_.positions.add(center);
   for (std::size_t i = 0; i < curve.size(); ++i)
     surface_.corners.push_back({curve.markers[curve.next(i)].node, curve.markers[i].node, tip});
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), curve.part);
   birth_.resize(surface_.triangle_count(), frame_);
 }
 
@@ -304,6 +368,8 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
                              const ToughnessField& toughness, double target_edge) {
   arrest_touching(sheet, steps, toughness, target_edge);
   const auto motions = fine.advance(sheet, steps, toughness);
+  for (const NodeId node : fine.stopped_riders())
+    if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;
   settings.smoothing = 0;
   std::unordered_map<NodeId, Vec3> displacement;

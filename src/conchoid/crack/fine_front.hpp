@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "conchoid/crack/face_grid.hpp"
 #include "conchoid/crack/front_steps.hpp"
 #include "conchoid/crack/marker_curve.hpp"
 
@@ -31,6 +32,11 @@ using ToughnessField = std::function<double(const Vec3&)>;
 /// that has not moved before kinks at once. A marker leaves a row of triangles behind whenever it is half of
 /// h from its last one, so slow fronts leave no slivers; its position may be that much ahead of the sheet
 /// (see finish()). The body's surface is not seen here.
+///
+/// A marker stops for good at the face of a crack: half of h before it where it is a face of its own crack,
+/// which may not cross itself, and half of h beyond where it is another's, so that the two cut the body
+/// together. Markers between coarse nodes that both lie outside of the body are not looked after. Coarse
+/// nodes that ride on stopped markers are arrested.
 ///
 /// One frame:  motions = fine.advance(sheet, steps, toughness);
 ///             result = advance(sheet, motions, r̄, {smoothing 0, between fine.between});  fine.adopt(sheet,
@@ -65,10 +71,15 @@ class FineFront {
   const IdVector<TriId, int>& triangle_birth() const { return birth_; }
   /// As CrackSheet::fronts; empty where the fine front has closed before the coarse one.
   const std::vector<MarkerCurve>& curves() const { return curves_; }
+  /// Coarse nodes that ride on a marker which has run into a face.
+  std::vector<NodeId> stopped_riders() const;
 
  private:
   bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness, int step,
                     int count) const;
+  /// Stops markers whose path since `from` (positions, one per marker) leads into a face.
+  void stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
+                     const std::vector<bool>& inside) const;
   void leave_row(MarkerCurve& curve, double least);
   void close(MarkerCurve& curve);
   void append_motions(const CrackSheet& sheet, MarkerCurve& curve, const FrontSteps& steps,
@@ -79,6 +90,7 @@ class FineFront {
   TriMesh surface_;
   IdVector<TriId, int> birth_;
   std::vector<MarkerCurve> curves_;
+  FaceGrid faces_;
   std::size_t known_triangles_ = 0;  ///< of the sheet
   int frame_ = 0;
 };

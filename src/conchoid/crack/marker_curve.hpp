@@ -13,6 +13,7 @@ struct Marker {
   Vec3 direction = Vec3::Zero();         ///< of its last sub-step; zero before it has moved
   Vec3 direction_before = Vec3::Zero();  ///< of the last sub-step of the frame before
   NodeId coarse;                         ///< the coarse front node that rides on it; else invalid
+  bool arrested = false;                 ///< it has run into the face of a crack
   double parameter = 0;  ///< k + s: fraction s of the way from coarse node k of its front to the next
 };
 
@@ -20,6 +21,7 @@ struct Marker {
 struct MarkerCurve {
   std::vector<Marker> markers;
   bool closed = false;
+  int part = 0;  ///< connected part of the sheet it belongs to
 
   std::size_t size() const { return markers.size(); }
   std::size_t next(std::size_t i) const;

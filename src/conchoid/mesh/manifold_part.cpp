@@ -1,7 +1,10 @@
 #include "conchoid/mesh/manifold_part.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_set>
+
+#include "conchoid/mesh/self_intersection.hpp"
 
 namespace conchoid {
 namespace {
@@ -25,6 +28,26 @@ TriMesh manifold_part(const TriMesh& sheet) {
     out.corners.push_back(c);
   }
   return out;
+}
+
+TriMesh embedded_part(const TriMesh& sheet) {
+  TriMesh part = manifold_part(sheet);
+  std::erase_if(part.corners, [&](const auto& c) {
+    return area_vector2(part.positions[c[0]], part.positions[c[1]], part.positions[c[2]]).isZero(0);
+  });
+  auto pairs = self_intersections(part, std::numeric_limits<std::size_t>::max());
+  if (pairs.empty()) return part;
+  std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
+    return x.second != y.second ? x.second < y.second : x.first < y.first;
+  });
+  std::vector<char> dropped(part.triangle_count(), 0);
+  for (const auto& [first, later] : pairs)
+    if (!dropped[first.index()]) dropped[later.index()] = 1;
+  IdVector<TriId, std::array<NodeId, 3>> kept;
+  for (std::size_t t = 0; t < part.triangle_count(); ++t)
+    if (!dropped[t]) kept.push_back(part.corners[TriId(t)]);
+  part.corners = std::move(kept);
+  return part;
 }
 
 }  // namespace conchoid

@@ -9,9 +9,10 @@
 
 namespace conchoid {
 
-/// Indexed triangle mesh. Corners are counter-clockwise seen from the side the normal points to (outside of a body).
+/// Indexed triangle mesh. Corners are counter-clockwise seen from the side the normal points to (outside of a
+/// body).
 struct TriMesh {
-  IdVector<NodeId, Vec3> positions;                 ///< [m]
+  IdVector<NodeId, Vec3> positions;  ///< [m]
   IdVector<TriId, std::array<NodeId, 3>> corners;
 
   std::size_t node_count() const { return positions.size(); }
@@ -46,8 +47,11 @@ struct Edge {
   friend auto operator<=>(const Edge&, const Edge&) = default;
 };
 
-/// For corner k of triangle t, neighbour[t][k] is the triangle across the edge (corner k, corner k+1), or invalid at a boundary.
-/// The mesh must be edge-manifold (at most two triangles on an edge).
+/// For corner k of triangle t, neighbour[t][k] is the triangle across the edge (corner k, corner k+1), or
+/// invalid at a boundary. The mesh must be edge-manifold (at most two triangles on an edge).
 IdVector<TriId, std::array<TriId, 3>> triangle_neighbours(const TriMesh& mesh);
+
+/// Connected part (0, 1, …) of each node, counted by the parts' smallest ids.
+std::vector<int> connected_parts(const TriMesh& mesh);
 
 }  // namespace conchoid

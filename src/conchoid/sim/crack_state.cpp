@@ -79,7 +79,7 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
 void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) {
   const bool infinite = surface.corners.empty();
   state.cut = infinite ? uncut_sheet(state.sheet.mesh)
-                       : cut_for_elements(surface, manifold_part(state.sheet.mesh), crack_edge);
+                       : cut_for_elements(surface, embedded_part(state.sheet.mesh), crack_edge);
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth);
   std::vector<char> on_mouth(state.cut.positions.size(), 0), used(state.cut.positions.size(), 0);

@@ -296,7 +296,7 @@ std::vector<TriMesh> FrameLoop::fine_sheets() const {
     sheets[part[c[0].index()]].corners.push_back(
         {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
   for (TriMesh& sheet : sheets)
-    sheet = manifold_part(sheet);
+    sheet = embedded_part(sheet);
   std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
   return sheets;
 }

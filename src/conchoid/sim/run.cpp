@@ -58,7 +58,7 @@ TriMesh used_part(const CutComplex& cut) {
 
 std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   for (TriMesh& sheet : sheets)
-    sheet = manifold_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
+    sheet = embedded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
   return sheets;
 }
 

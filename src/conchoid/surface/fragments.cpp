@@ -10,6 +10,7 @@
 #include "conchoid/mesh/corefine.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
+#include "conchoid/surface/slit_edges.hpp"
 
 namespace conchoid {
 namespace {
@@ -121,8 +122,9 @@ struct CutPieces {
 
 CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
                          double minimum_volume) {
-  const CutComplex cut = corefine(piece.mesh, sheet);
+  CutComplex cut = corefine(piece.mesh, sheet);
   if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
+  split_edges_between_front_nodes(cut);
   Shells shells = glue(cut);
   const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
   if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
