@@ -96,6 +96,8 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
     result.crack = join(sheets);
     if (fragments) result.fragments = cut_into_fragments(setup.detailed, {}, settings);
   }
+  // The coarse crack may end a triangle short of where the fine one has cut through.
+  if (result.document.stop == "arrested" && result.fragments.size() > 1) result.document.stop = "separated";
   dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
   for (Fragment& f : result.fragments) {
     move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);
