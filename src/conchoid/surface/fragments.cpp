@@ -11,6 +11,7 @@
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
 #include "conchoid/surface/slit_edges.hpp"
+#include "conchoid/surface/weld_fragments.hpp"
 
 namespace conchoid {
 namespace {
@@ -152,6 +153,15 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, std::size
   return fallback;
 }
 
+void weigh(Fragment& fragment, double density) {
+  const MassProperties m = mass_properties(fragment.mesh, density);
+  fragment.watertight = is_watertight(fragment.mesh);
+  fragment.volume = m.volume;
+  fragment.mass = m.mass;
+  fragment.center_of_mass = m.center_of_mass;
+  fragment.inertia = m.inertia;
+}
+
 }  // namespace
 
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
@@ -175,17 +185,16 @@ std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vect
   std::vector<Fragment> fragments;
   for (Piece& piece : pieces) {
     Fragment fragment;
-    const MassProperties m = mass_properties(piece.mesh, settings.density);
-    fragment.watertight = is_watertight(piece.mesh);
+    fragment.volume = enclosed_volume(piece.mesh);
     fragment.mesh = std::move(piece.mesh);
     fragment.face_kind = std::move(piece.kind);
     fragment.source = std::move(piece.source);
-    fragment.volume = m.volume;
-    fragment.mass = m.mass;
-    fragment.center_of_mass = m.center_of_mass;
-    fragment.inertia = m.inertia;
     fragments.push_back(std::move(fragment));
   }
+  fragments = joined_small_fragments(
+      std::move(fragments), {settings.minimum_volume_fraction * body_volume, settings.maximum_count});
+  for (Fragment& fragment : fragments)
+    weigh(fragment, settings.density);
   // largest first; pieces equal up to round-off keep their order
   const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / body_volume); };
   std::stable_sort(fragments.begin(), fragments.end(),

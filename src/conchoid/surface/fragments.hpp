@@ -27,6 +27,8 @@ struct FragmentSettings {
   double density = 1000;  ///< kg/m³
   double minimum_volume_fraction =
       1e-4;  ///< pieces below this share of the body's volume join the neighbour they share most area with
+  std::size_t maximum_count =
+      0;  ///< the smallest pieces are joined likewise until there are so few; 0: all stay
 };
 
 /// Cuts a closed surface by crack sheets (fine meshes; they may stick out of the body and stop at each other)

@@ -3,35 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/surface/union_find.hpp"
 
 namespace conchoid {
 namespace {
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller root stays: numbering by first member.
-  void join(std::size_t i, std::size_t j) {
-    i = root(i);
-    j = root(j);
-    if (i < j)
-      parent_[j] = i;
-    else
-      parent_[i] = j;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Edge of a face, with its direction there.
 struct HalfEdge {
