@@ -247,10 +247,20 @@ TEST(FragmentsGlb, EveryMaterialIsAPrimitiveWithTextureCoordinates) {
   EXPECT_EQ(corners, 2u * 36u);
 }
 
+TEST(FragmentsGlb, ContactsAreInTheExtras) {
+  const ScratchFolder folder;
+  const auto pieces = broken_cube(0.1);
+  write_fragments_glb(folder / "f.glb", pieces, {{0, 1, 1.0}});
+  const Glb glb = opened(file_content(folder / "f.glb"));
+  EXPECT_EQ(glb.json["nodes"][1]["extras"]["contacts"], Json::parse(R"([{"fragment":1,"area":1.0}])"));
+  EXPECT_EQ(glb.json["nodes"][2]["extras"]["contacts"], Json::parse(R"([{"fragment":0,"area":1.0}])"));
+}
+
 TEST(FragmentFormats, AreNamed) {
   const FragmentFormats some = formats_from_names({"glb", "stl"}, "--format");
   EXPECT_TRUE(some.glb && some.stl);
   EXPECT_FALSE(some.ply || some.obj);
+  EXPECT_TRUE(formats_from_names({"hulls"}, "").hulls && formats_from_names({"vdb"}, "").vdb);
   EXPECT_THROW(formats_from_names({"fbx"}, "scene.toml:3"), InputError);
 }
 
@@ -312,5 +322,16 @@ TEST(FragmentFiles, AnotherReaderFindsTheSamePieces) {
     EXPECT_EQ(counts.materials, (std::set<std::string>{"wood", "steel", "fracture"})) << name;
     EXPECT_EQ(counts.with_uv, 12u) << name;
   }
+}
+
+TEST(FragmentFiles, AnotherReaderFindsAHullPerPiece) {
+  const ScratchFolder folder;
+  write_hulls_obj(folder / "hulls.obj", broken_cube(0.1));
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile((folder / "hulls.obj").string(), 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mRootNode->mNumChildren, 2u);
+  EXPECT_STREQ(scene->mRootNode->mChildren[1]->mName.C_Str(), "fragment_001");
+  EXPECT_NEAR(counted(folder / "hulls.obj").volume, 1.0, 1e-6);  // boxes are their own hulls
 }
 #endif

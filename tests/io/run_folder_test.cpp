@@ -52,6 +52,7 @@ RunDocument document_of(const std::vector<Fragment>& fragments) {
   d.timings = {{1, "bem", 24, 18, 1.5e6, 0.1, 0.2, 0.3}};
   for (const Fragment& f : fragments)
     d.fragments.push_back(fragment_record(f));
+  d.contacts = {{0, 1, 1.0}};
   d.hash = "0123456789abcdef";
   return d;
 }

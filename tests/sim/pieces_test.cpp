@@ -44,10 +44,12 @@ TEST(Pieces, KeepTheBitsMaterialsAndTextureOfTheBody) {
   RunOptions options;
   options.progress = false;
   options.folder = folder.path() / "run";
-  options.formats = {"glb", "stl"};
+  options.formats = {"glb", "stl", "vdb", "hulls"};
   const RunResult result = run_scene(scene, options);
   EXPECT_EQ(result.document.stop, "separated");
   ASSERT_EQ(result.fragments.size(), 2u);
+  ASSERT_EQ(result.document.contacts.size(), 1u);
+  EXPECT_NEAR(result.document.contacts[0].area, 0.09, 1e-12);  // the cube's cross section
 
   const auto key = [](const Vec3& x) { return std::array{x[0], x[1], x[2]}; };
   std::set<std::array<double, 3>> nodes, found;
@@ -80,6 +82,23 @@ TEST(Pieces, KeepTheBitsMaterialsAndTextureOfTheBody) {
   EXPECT_EQ(files, (std::set<std::string>{"crack.ply", "fragment_000.stl", "fragment_001.stl",
                                           "fragments.glb", "front.csv", "run.json", "run.pvd"}));
   EXPECT_TRUE(read_run(folder.path() / "run").fragments.empty());
+}
+
+TEST(Pieces, NoMoreThanTheSceneAllows) {
+  const Scene scene =
+      parse_scene("[body]\nmodel = \"cube\"\n" + test::material_text() +
+                      "[resolution]\ncrack = 0.2\nsurface = 0.1\n"
+                      "[[crack]]\nkind = \"rectangle\"\ncenter = [0.0, 0.0, 0.21]\n"
+                      "edges = [[1.4, 0.0, 0.0], [0.0, 1.4, 0.0]]\n"
+                      "[[crack]]\nkind = \"rectangle\"\ncenter = [0.0, 0.0, -0.12]\n"
+                      "edges = [[1.4, 0.0, 0.0], [0.0, 1.4, 0.0]]\n[run]\nframes = 1\nmax_fragments = 2\n",
+                  "scene.toml", "");
+  RunOptions options;
+  options.progress = false;
+  const RunResult result = run_scene(scene, options);
+  ASSERT_EQ(result.fragments.size(), 2u);  // 0.38 below; 0.33 in the middle takes 0.29 above
+  EXPECT_NEAR(result.fragments[0].volume, 0.62, 1e-12);
+  EXPECT_NEAR(result.fragments[1].volume, 0.38, 1e-12);
 }
 
 }  // namespace

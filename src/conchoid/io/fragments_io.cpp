@@ -8,6 +8,7 @@
 #include "conchoid/io/colors.hpp"
 #include "conchoid/io/numbers.hpp"
 #include "conchoid/io/ply.hpp"
+#include "conchoid/surface/convex_hull.hpp"
 #include "conchoid/surface/corner_normals.hpp"
 
 namespace conchoid {
@@ -17,10 +18,9 @@ struct NamedFormat {
   const char* name;
   bool FragmentFormats::*wanted;
 };
-constexpr NamedFormat named_formats[] = {{"ply", &FragmentFormats::ply},
-                                         {"obj", &FragmentFormats::obj},
-                                         {"glb", &FragmentFormats::glb},
-                                         {"stl", &FragmentFormats::stl}};
+constexpr NamedFormat named_formats[] = {{"ply", &FragmentFormats::ply}, {"obj", &FragmentFormats::obj},
+                                         {"glb", &FragmentFormats::glb}, {"stl", &FragmentFormats::stl},
+                                         {"vdb", &FragmentFormats::vdb}, {"hulls", &FragmentFormats::hulls}};
 
 void write_material(std::ostream& out, const std::string& name, const Color& color) {
   out << "newmtl " << name << "\nKd " << shortest(color.r) << ' ' << shortest(color.g) << ' '
@@ -96,6 +96,29 @@ void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragm
                    .frame = {},
                    .material = fragment.attributes.material,
                    .uv = fragment.attributes.uv});
+}
+
+void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragment>& fragments) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "# conchoid, convex hulls of the fragments, lengths in metres\n";
+  std::size_t first = 1;
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const TriMesh hull = convex_hull(fragments[i].mesh);
+    out << "o " << fragment_name(i) << '\n';
+    for (const Vec3& x : hull.positions)
+      out << "v " << shortest(x[0]) << ' ' << shortest(x[1]) << ' ' << shortest(x[2]) << '\n';
+    for (const auto& c : hull.corners)
+      out << "f " << first + c[0].index() << ' ' << first + c[1].index() << ' ' << first + c[2].index()
+          << '\n';
+    first += hull.node_count();
+  }
+  file.commit();
+}
+
+std::string fragment_name(std::size_t i) {
+  const std::string number = std::to_string(i);
+  return "fragment_" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
 }
 
 void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragment) {

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/surface/fragments.hpp"
+#include "conchoid/surface/contacts.hpp"
 
 namespace conchoid {
 
-/// The files that pieces are written as. Names, as in scenes and on the command line: ply, obj, glb, stl.
+/// The files that pieces are written as. Names, as in scenes and on the command line: ply, obj, glb, stl, vdb
+/// (level sets), hulls (convex collision proxies).
 struct FragmentFormats {
-  bool ply = true, obj = true, glb = true, stl = false;
+  bool ply = true, obj = true, glb = true, stl = false, vdb = false, hulls = false;
 };
 /// Names that formats_from_names() knows, in the order of the documentation.
 std::vector<std::string> fragment_format_names();
@@ -31,9 +32,17 @@ void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragm
 /// All fragments as one binary glTF 2.0 file: one node per fragment at its centre of mass, below a root that
 /// turns our z-up into glTF's y-up; a material per material of the fragments, the last one "fracture". A
 /// node's extras hold mass [kg], volume [m³], inertia [kg m²] about the centre of mass (xx, yy, zz, yz, xz,
-/// xy) and watertight. Vertices are split where material, shading normal or texture coordinates change;
-/// single precision.
-void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fragment>& fragments);
+/// xy), watertight, and contacts: the other fragments it lies against, with the area [m²]. Vertices are split
+/// where material, shading normal or texture coordinates change; single precision.
+void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fragment>& fragments,
+                         const std::vector<FragmentContact>& contacts = {});
+
+/// The convex hulls of the fragments as one OBJ file, an object "fragment_000" … each, in place; for rigid
+/// body programs.
+void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragment>& fragments);
+
+/// "fragment_007".
+std::string fragment_name(std::size_t i);
 
 /// What the fragment was dressed with; plain normals and the two materials "original" and "fracture" where it
 /// was not.

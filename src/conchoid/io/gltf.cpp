@@ -71,7 +71,7 @@ class Document {
         Json::array({{{"name", "body"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}}});
   }
 
-  void add(const Fragment& fragment) {
+  void add(const Fragment& fragment, const std::vector<FragmentContact>& contacts) {
     const SurfaceAttributes look = written_attributes(fragment);
     if (!json_.contains("materials"))
       for (const std::string& name : look.materials)
@@ -86,7 +86,8 @@ class Document {
       primitives.push_back(
           {{"attributes", attributes}, {"indices", accessor(p.index)}, {"material", m}, {"mode", 4}});
     }
-    const std::string name = "fragment_" + std::to_string(fragment_count_++);
+    const std::size_t number = fragment_count_++;
+    const std::string name = fragment_name(number);
     const Vec3& c = fragment.center_of_mass;
     const Mat3& inertia = fragment.inertia;
     Json node{{"name", name},
@@ -96,7 +97,8 @@ class Document {
                 {"volume", fragment.volume},
                 {"inertia",
                  {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(1, 2), inertia(0, 2), inertia(0, 1)}},
-                {"watertight", fragment.watertight}}}};
+                {"watertight", fragment.watertight},
+                {"contacts", contacts_of(number, contacts)}}}};
     if (!primitives.empty()) {
       node["mesh"] = json_["meshes"].size();
       json_["meshes"].push_back({{"name", name}, {"primitives", primitives}});
@@ -123,6 +125,14 @@ class Document {
   }
 
  private:
+  static Json contacts_of(std::size_t fragment, const std::vector<FragmentContact>& contacts) {
+    Json list = Json::array();
+    for (const FragmentContact& c : contacts)
+      if (c.first == fragment || c.second == fragment)
+        list.push_back({{"fragment", c.first == fragment ? c.second : c.first}, {"area", c.area}});
+    return list;
+  }
+
   static Json material(const std::string& name, const Color& color) {
     return {{"name", name},
             {"pbrMetallicRoughness",
@@ -172,15 +182,16 @@ class Document {
 
   Json json_;
   std::string bytes_;
-  int fragment_count_ = 0;
+  std::size_t fragment_count_ = 0;
 };
 
 }  // namespace
 
-void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fragment>& fragments) {
+void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fragment>& fragments,
+                         const std::vector<FragmentContact>& contacts) {
   Document document;
   for (const Fragment& fragment : fragments)
-    document.add(fragment);
+    document.add(fragment, contacts);
   const std::string bytes = document.bytes();
   AtomicFile file(path);
   file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

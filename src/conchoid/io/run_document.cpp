@@ -123,6 +123,9 @@ RunDocument document_from(const Json& json) {
   d.opening_seconds_per_frame = number(json.at("opening_seconds_per_frame"));
   for (const Json& f : json.at("fragments"))
     d.fragments.push_back(fragment_from(f));
+  for (const Json& c : json.value("contacts", Json::array()))
+    d.contacts.push_back({c.at("fragments").at(0).get<std::size_t>(),
+                          c.at("fragments").at(1).get<std::size_t>(), number(c.at("area"))});
   d.hash = json.at("hash").get<std::string>();
   for (const Json& w : json.at("warnings"))
     d.warnings.push_back(w.get<std::string>());
@@ -174,6 +177,9 @@ std::string run_json(const RunDocument& d, RunJson extent) {
   out["fragments"] = Json::array();
   for (const FragmentRecord& f : d.fragments)
     out["fragments"].push_back(to_json(f));
+  out["contacts"] = Json::array();
+  for (const FragmentContact& c : d.contacts)
+    out["contacts"].push_back({{"fragments", {c.first, c.second}}, {"area", c.area}});
   out["hash"] = d.hash;
   out["warnings"] = d.warnings;
   if (extent == RunJson::document) {

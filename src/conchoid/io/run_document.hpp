@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "conchoid/surface/fragments.hpp"
+#include "conchoid/surface/contacts.hpp"
 
 namespace conchoid {
 
@@ -56,7 +56,8 @@ struct RunDocument {
   std::vector<std::string> warnings;
   std::vector<FrameRecord> timings;
   std::vector<FragmentRecord> fragments;
-  std::string hash;  ///< of the result: same inputs, same hash
+  std::vector<FragmentContact> contacts;  ///< which fragments share which fracture area
+  std::string hash;                       ///< of the result: same inputs, same hash
 };
 
 enum class RunJson { report, document };

@@ -7,6 +7,7 @@
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/io/level_set.hpp"
 #include "conchoid/io/ply.hpp"
 #include "conchoid/mesh/formats.hpp"
 
@@ -21,10 +22,6 @@ std::string numbered(const char* pattern, int number) {
   return text;
 }
 
-std::string fragment_name(std::size_t i) {
-  return numbered("fragment_%03d", static_cast<int>(i));
-}
-
 [[noreturn]] void refuse_folder(const fs::path& path, const std::string& why) {
   throw InputError(path.string() + ": " + why);
 }
@@ -32,7 +29,8 @@ std::string fragment_name(std::size_t i) {
 /// Deletes what an earlier run wrote, run.json first so that a half emptied folder is not taken for a
 /// finished run.
 void remove_earlier_run(const fs::path& path) {
-  for (const char* name : {"run.json", "run.pvd", "front.csv", "crack.ply", "fragments.glb"})
+  for (const char* name :
+       {"run.json", "run.pvd", "front.csv", "crack.ply", "fragments.glb", "fragments.vdb", "hulls.obj"})
     fs::remove(path / name);
   for (const auto& [folder, prefix] : {std::pair("frames", "frame_"), std::pair("fragments", "fragment_")}) {
     if (!fs::is_directory(path / folder)) continue;
@@ -157,7 +155,8 @@ void RunFolder::write_crack(const TriMesh& crack, const std::vector<int>& frame)
   write_ply(path_ / "crack.ply", {crack, {}, {}, frame});
 }
 
-void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats) {
+void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats,
+                                const std::vector<FragmentContact>& contacts, double voxel) {
   try {
     if (formats.ply || formats.obj || formats.stl) fs::create_directories(path_ / "fragments");
   } catch (const fs::filesystem_error& error) {
@@ -170,7 +169,9 @@ void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const Fr
     if (formats.obj) write_fragment_obj(name + ".obj", fragments[i]);
     if (formats.stl) write_mesh(name + ".stl", fragments[i].mesh);
   }
-  if (formats.glb) write_fragments_glb(path_ / "fragments.glb", fragments);
+  if (formats.glb) write_fragments_glb(path_ / "fragments.glb", fragments, contacts);
+  if (formats.vdb) write_fragments_vdb(path_ / "fragments.vdb", fragments, voxel);
+  if (formats.hulls) write_hulls_obj(path_ / "hulls.obj", fragments);
 }
 
 void RunFolder::write_run_json(const RunDocument& document) {

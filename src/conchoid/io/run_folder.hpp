@@ -39,8 +39,9 @@ void write_front_csv(const std::filesystem::path& path, const std::vector<FrontR
 std::vector<FrontRow> read_front_csv(const std::filesystem::path& path);
 
 /// Writer of a run folder: frames/frame_0001.vtu … + run.pvd, front.csv, crack.ply, the pieces in the formats
-/// asked for (fragments/fragment_000.ply, .obj + .mtl, .stl; fragments.glb), run.json. Every file appears
-/// complete or not at all; run.json comes last and makes the folder a finished run.
+/// asked for (fragments/fragment_000.ply, .obj + .mtl, .stl; fragments.glb, fragments.vdb, hulls.obj),
+/// run.json. Every file appears complete or not at all; run.json comes last and makes the folder a finished
+/// run.
 class RunFolder {
  public:
   enum class Earlier { replace, keep };
@@ -54,7 +55,9 @@ class RunFolder {
   /// The fine crack surface, trimmed to the body. @param frame  per triangle: frame in which it appeared; may
   /// be empty
   void write_crack(const TriMesh& crack, const std::vector<int>& frame = {});
-  void write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats = {});
+  /// @param contacts  for the glTF file; voxel  of level sets [m]
+  void write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats = {},
+                       const std::vector<FragmentContact>& contacts = {}, double voxel = 0);
   void write_run_json(const RunDocument& document);
 
   const std::filesystem::path& path() const { return path_; }

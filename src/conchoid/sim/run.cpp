@@ -78,7 +78,8 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
     result.crack = join(sheets);
     return;
   }
-  const FragmentSettings settings{scene.material.density, scene.run.smallest_fragment};
+  const FragmentSettings settings{scene.material.density, scene.run.smallest_fragment,
+                                  static_cast<std::size_t>(scene.run.max_fragments)};
   try {
     if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
     if (result.document.stop == "separated" && fragments && result.fragments.size() < 2) {
@@ -98,6 +99,7 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
   }
   // The coarse crack may end a triangle short of where the fine one has cut through.
   if (result.document.stop == "arrested" && result.fragments.size() > 1) result.document.stop = "separated";
+  result.document.contacts = fragment_contacts(result.fragments);
   dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
   for (Fragment& f : result.fragments) {
     move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);
@@ -147,10 +149,11 @@ void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& optio
   doc.body_volume = enclosed_volume(setup.detailed);
 }
 
-void write_results(const RunResult& result, const FragmentFormats& formats, RunFolder& folder) {
+void write_results(const RunResult& result, const FragmentFormats& formats, double voxel, RunFolder& folder) {
   folder.write_front_csv(result.front);
   folder.write_crack(result.crack);
-  if (!result.fragments.empty()) folder.write_fragments(result.fragments, formats);
+  if (!result.fragments.empty())
+    folder.write_fragments(result.fragments, formats, result.document.contacts, voxel);
   folder.write_run_json(result.document);
 }
 
@@ -190,7 +193,7 @@ RunResult run_scene(const Scene& scene, const RunOptions& options) {
   doc.total_seconds = seconds_since(start);
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (folder) write_results(result, formats, *folder);
+  if (folder) write_results(result, formats, loop.setup().surface_edge, *folder);
   return result;
 }
 

@@ -265,6 +265,7 @@ RunSpec read_run(const TomlTable& file) {
   table->read("contact", run.contact);
   table->read("quadrature_tolerance", run.quadrature_tolerance);
   table->read("smallest_fragment", run.smallest_fragment);
+  table->read("max_fragments", run.max_fragments);
   std::string sif = "two-point", convention = "full-opening", rayleigh = "exact";
   table->read("sif", sif);
   table->read("sif_convention", convention);

@@ -87,6 +87,7 @@ struct RunSpec {
   double quadrature_tolerance = 1e-6;
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
+  int max_fragments = 0;            ///< 0: no limit
 };
 
 struct Scene {

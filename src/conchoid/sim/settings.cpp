@@ -253,8 +253,15 @@ const std::vector<Setting>& settings() {
        number,
        "of the body",
        "1e-4",
-       "pieces below this share of the body's volume are joined to their neighbour",
+       "pieces below this share of the body's volume are joined to the neighbour with which they share the "
+       "most "
+       "fracture area",
        {.low = 0, .high = 1, .high_included = false}},
+      {"run", "max_fragments", integer, "pieces", "0",
+       "the smallest pieces are joined to the neighbour with which they share the most fracture area until "
+       "there "
+       "are so few; 0: all stay",
+       between(0, 1e6)},
 
       {"output",
        "formats",
@@ -266,7 +273,7 @@ const std::vector<Setting>& settings() {
        "the pieces",
        {},
        0,
-       {"ply", "obj", "glb", "stl"}},
+       {"ply", "obj", "glb", "stl", "vdb", "hulls"}},
       {"output",
        "projection",
        text,

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "conchoid/surface/fragments.hpp"
+
+namespace conchoid {
+
+/// The fragments as level sets in one OpenVDB file: a float grid "fragment_000" … each, distance to the
+/// piece's surface [m], negative inside, three voxels to either side of it; world coordinates are the body's.
+/// Same fragments, same bytes.
+/// @param voxel  edge of a voxel [m], > 0
+/// @throws ComputationError where a piece would be more than 10⁶ voxels long
+void write_fragments_vdb(const std::filesystem::path& path, const std::vector<Fragment>& fragments,
+                         double voxel);
+
+}  // namespace conchoid
