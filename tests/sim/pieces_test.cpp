@@ -79,8 +79,9 @@ TEST(Pieces, KeepTheBitsMaterialsAndTextureOfTheBody) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "run"))
     if (entry.is_regular_file() && entry.path().parent_path().filename() != "frames")
       files.insert(entry.path().filename().string());
-  EXPECT_EQ(files, (std::set<std::string>{"crack.ply", "fragment_000.stl", "fragment_001.stl",
-                                          "fragments.glb", "front.csv", "run.json", "run.pvd"}));
+  EXPECT_EQ(files,
+            (std::set<std::string>{"crack.ply", "fragment_000.stl", "fragment_001.stl", "fragments.glb",
+                                   "fragments.vdb", "front.csv", "hulls.obj", "run.json", "run.pvd"}));
   EXPECT_TRUE(read_run(folder.path() / "run").fragments.empty());
 }
 
