@@ -75,7 +75,7 @@ TEST(SphericalCap, BecomesTheFlatDiscAsItFlattens) {
   // The change is linear in the angle: half the angle, half the change.
   const double wide = largest_difference(sifs(spherical_cap(0.5, 0.1, 150), stress), disc);
   const double half = largest_difference(sifs(spherical_cap(0.5, 0.05, 150), stress), disc);
-  EXPECT_LT(wide, 0.1 * size);
+  EXPECT_LT(wide, 0.12 * size);  // the front of the wide cap is turned by 0.1 rad
   EXPECT_NEAR(wide / half, 2, 0.3);
   RecordProperty("change", test::text(wide / size));
 }

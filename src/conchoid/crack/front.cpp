@@ -100,7 +100,7 @@ void start_at_smallest_id(std::vector<NodeId>& ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
 }
 
-std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth) {
+std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth, FrontNormals kind) {
   std::vector<Front> fronts = FrontWalk(crack, mouth).fronts();
   for (Front& front : fronts)
     if (front.closed) start_at_smallest_id(front.nodes);
@@ -110,7 +110,7 @@ std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mo
   });
   const auto normals = node_area_vectors(crack);
   for (Front& front : fronts)
-    front.frames = front_frames(crack, normals, front.nodes, front.closed);
+    front.frames = front_frames(crack, normals, front.nodes, front.closed, kind);
   return fronts;
 }
 

@@ -6,6 +6,12 @@
 
 namespace conchoid {
 
+/// Whose normal e1 of a front's frames is: that of the facets behind the front, as on a crack that has grown
+/// — its last row lies in the direction it took — or, as on a mesh of a smooth curved crack, the same carried
+/// on from the middle of the last row to the front by what it turns from row to row (a kink, more than 0.15 …
+/// 0.3 rad, is not carried on).
+enum class FrontNormals { facets, carried_on };
+
 /// Right-handed frame of a front point: e1 crack normal, e2 forward out of the crack (in its plane), e3 = e1
 /// × e2 tangent.
 struct FrontFrame {
@@ -22,6 +28,7 @@ struct Front {
 
 /// Fronts of a crack mesh: its boundary edges that are not mouth edges, joined into curves.
 /// @param mouth  boundary edges on the body's surface (sorted), empty for a crack in the inside
-std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth);
+std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth,
+                               FrontNormals kind = FrontNormals::facets);
 
 }  // namespace conchoid

@@ -10,12 +10,13 @@ namespace conchoid {
 /// normal.
 IdVector<NodeId, Vec3> node_area_vectors(const TriMesh& mesh);
 
-/// Frames along a front. e1: node normal; e3: tangent of the circle through the node and its two neighbours,
-/// at corners the bisector of the two edges, at an open end the one edge, made perpendicular to e1; e2 = e3 ×
-/// e1. A node whose triangles are all degenerate takes the frame of the nearest node of the front that has
-/// one.
+/// Frames along a front. e1: node normal, of which kind see FrontNormals; e3: tangent of the circle through
+/// the node and its two neighbours, at corners the bisector of the two edges, at an open end the one edge,
+/// made perpendicular to e1; e2 = e3 × e1. A node whose triangles are all degenerate takes the frame of the
+/// nearest node of the front that has one.
 std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId, Vec3>& normals,
-                                     const std::vector<NodeId>& nodes, bool closed);
+                                     const std::vector<NodeId>& nodes, bool closed,
+                                     FrontNormals kind = FrontNormals::facets);
 
 /// (1−s) a + s b, made orthonormal again: e1 first, then e3 (e2 = e3 × e1). 0 ≤ s ≤ 1.
 FrontFrame interpolate(const FrontFrame& a, const FrontFrame& b, double s);

@@ -197,7 +197,8 @@ NodeId append_part(CrackSheet& sheet, const TriMesh& part, const std::vector<Edg
 }
 
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front) {
-  return front_frames(sheet.mesh, node_area_vectors(sheet.mesh), front.nodes, front.closed);
+  return front_frames(sheet.mesh, node_area_vectors(sheet.mesh), front.nodes, front.closed,
+                      sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets);
 }
 
 AdvanceResult advance(CrackSheet& sheet, const std::vector<FrontMotion>& requested, double target_edge,

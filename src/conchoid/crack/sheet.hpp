@@ -39,7 +39,8 @@ struct CrackSheet {
 /// @return id of its first node: node k of the part becomes node first + k, likewise the triangles
 NodeId append_part(CrackSheet& sheet, const TriMesh& part, const std::vector<Edge>& mouth = {});
 
-/// Frames at the nodes of one front of the sheet.
+/// Frames at the nodes of one front of the sheet; as long as it has not grown, with normals carried on to the
+/// front.
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front);
 
 struct FrontMotion {

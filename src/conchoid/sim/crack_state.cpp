@@ -81,7 +81,8 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) 
   state.cut = infinite ? uncut_sheet(state.sheet.mesh)
                        : cut_for_elements(surface, embedded_part(state.sheet.mesh), crack_edge);
   state.trimmed = {state.cut.positions, state.cut.sheet};
-  state.fronts = find_fronts(state.trimmed, state.cut.mouth);
+  state.fronts = find_fronts(state.trimmed, state.cut.mouth,
+                             state.sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets);
   std::vector<char> on_mouth(state.cut.positions.size(), 0), used(state.cut.positions.size(), 0);
   for (const Edge& e : state.cut.mouth)
     on_mouth[e.a.index()] = on_mouth[e.b.index()] = 1;
