@@ -21,9 +21,43 @@ if(CONCHOID_SANITIZE)
   target_link_options(conchoid_settings INTERFACE -fsanitize=${CONCHOID_SANITIZE})
 endif()
 
+# conchoid_optimization(TARGET LEVEL): the optimization of release builds, in place of CMake's -O3, where speed is elsewhere.
+function(conchoid_optimization target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+endfunction()
+
+# conchoid_precompile(NAME PIC ON|OFF OPTIMIZATION level LIBRARIES external targets HEADERS further headers)
+# Half of the time to compile a file goes into headers from outside the project. These are compiled once for all rooms and
+# once for all tests; others take them by target_precompile_headers(… REUSE_FROM NAME). None of our own is among them: a
+# change of ours never rebuilds everything. Nothing of this is installed.
+function(conchoid_precompile name)
+  cmake_parse_arguments(PRE "" "PIC;OPTIMIZATION" "LIBRARIES;HEADERS" ${ARGN})
+  if(NOT CONCHOID_PCH)
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${PRE_PIC})
+  target_link_libraries(${name} PRIVATE conchoid_settings Eigen3::Eigen ${PRE_LIBRARIES})
+  if(PRE_OPTIMIZATION)
+    conchoid_optimization(${name} ${PRE_OPTIMIZATION})
+  endif()
+  target_precompile_headers(${name} PRIVATE
+    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional>
+    <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>
+    <unordered_map> <utility> <vector> ${PRE_HEADERS})
+endfunction()
+
+function(conchoid_use_precompiled target name)
+  if(CONCHOID_PCH)
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endif()
+endfunction()
+
 # conchoid_room(NAME USES rooms... LIBRARIES external targets seen by users LIBRARIES_PRIVATE external targets hidden inside)
+# FLAGS compiler flags of this room's own: they rule out the precompiled headers that the others share.
 function(conchoid_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;LIBRARIES;LIBRARIES_PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "FLAGS;USES;LIBRARIES;LIBRARIES_PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(conchoid_${name} STATIC ${sources})
   set_target_properties(conchoid_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -31,6 +65,11 @@ function(conchoid_room name)
   target_link_libraries(conchoid_${name} PUBLIC conchoid_settings ${ROOM_USES} ${ROOM_LIBRARIES}
                                          PRIVATE ${ROOM_LIBRARIES_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY CONCHOID_ROOMS conchoid_${name})
+  if(ROOM_FLAGS)
+    target_compile_options(conchoid_${name} PRIVATE ${ROOM_FLAGS})
+  else()
+    conchoid_use_precompiled(conchoid_${name} conchoid_room_headers)
+  endif()
 endfunction()
 
 # conchoid_test(NAME USES rooms... LIBRARIES external targets): tests/NAME/*.cpp become the program test_NAME.
@@ -44,5 +83,7 @@ function(conchoid_test name)
   target_compile_definitions(test_${name} PRIVATE
     CONCHOID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CONCHOID_BINARY="$<TARGET_FILE:conchoid>"
     CONCHOID_SHARED_MODELS="${PROJECT_SOURCE_DIR}/../shared/models")
+  conchoid_optimization(test_${name} -O1)
+  conchoid_use_precompiled(test_${name} conchoid_test_headers)
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 1200)
 endfunction()
