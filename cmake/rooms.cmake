@@ -43,7 +43,7 @@ function(conchoid_precompile name)
     conchoid_optimization(${name} ${PRE_OPTIMIZATION})
   endif()
   target_precompile_headers(${name} PRIVATE
-    <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional>
+    <Eigen/Core> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional>
     <limits> <map> <memory> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>
     <unordered_map> <utility> <vector> ${PRE_HEADERS})
 endfunction()

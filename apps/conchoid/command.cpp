@@ -23,6 +23,10 @@ CLI::App* add_command(CLI::App& parent, Invocation& invocation, const std::strin
   return command;
 }
 
+void allow_one_command(CLI::App& parent) {
+  parent.require_subcommand(0, 1);
+}
+
 void print(const std::string& text) {
   if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0)
     throw ComputationError("stdout: the result could not be written; is the disk full or the pipe closed?");

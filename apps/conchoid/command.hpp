@@ -26,6 +26,9 @@ struct Invocation {
 CLI::App* add_command(CLI::App& parent, Invocation& invocation, const std::string& name,
                       const std::string& help, std::function<void()> action);
 
+/// One command and no more: what follows it is never taken for another, be it a folder of that name.
+void allow_one_command(CLI::App& parent);
+
 /// Writes text and a line end to stdout. Throws ComputationError when that fails (closed pipe, full disk).
 void print(const std::string& text);
 

@@ -103,6 +103,7 @@ void add_generate(CLI::App& group, Invocation& invocation, const std::shared_ptr
 
 void add_database(CLI::App& program, Invocation& invocation) {
   CLI::App* group = program.add_subcommand("database", "Make and look at databases of samples");
+  allow_one_command(*group);
   const auto options = std::make_shared<DatabaseOptions>();
   add_generate(*group, invocation, options);
   const auto add_files = [options](CLI::App* command, int least) {

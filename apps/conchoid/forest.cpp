@@ -151,6 +151,7 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
 
 void add_forest(CLI::App& program, Invocation& invocation) {
   CLI::App* group = program.add_subcommand("forest", "Train and look at regression forests");
+  allow_one_command(*group);
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
   const auto add_file = [options](CLI::App* command) {

@@ -46,6 +46,7 @@ int run_program(int argc, char** argv) {
       "conchoid COMMAND --help tells more; conchoid help-scene lists the keys of a scene.");
   program.get_formatter()->column_width(34);
   Invocation invocation;
+  allow_one_command(program);
   add_run(program, invocation);
   add_sif(program, invocation);
   add_stress(program, invocation);

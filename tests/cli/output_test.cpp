@@ -43,6 +43,18 @@ double norm(const json& v) {
 
 }  // namespace
 
+TEST(Usage, FoldersMayBeNamedAsCommandsAre) {
+  const TemporaryFolder folder;
+  folder.write("run", kPenny);
+  json_of(folder, {"run", "run", "--out", "forest"});
+  json_of(folder, {"run", "run", "--out", "bem"});
+  json_of(folder, {"compare", "bem", "forest"});
+  json_of(folder, {"picture", "bem", "forest", "--width", "64", "--height", "64", "--out", "both.png"});
+  EXPECT_TRUE(fs::exists(folder / "both.png"));
+  const Outcome two = run_program({"sif", "run", "stress", "run"}, folder.path());
+  EXPECT_EQ(two.status, 2) << two.out;
+}
+
 TEST(Help, EverySubCommandExplainsItself) {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> commands = {{"run"},

@@ -2,27 +2,20 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-namespace fs = std::filesystem;
+#include "house/source_files.hpp"
 
+namespace conchoid {
 namespace {
 
-const fs::path kSource = CONCHOID_SOURCE_DIR;
-using Rooms = std::map<std::string, std::set<std::string>>;
+namespace fs = std::filesystem;
 
-std::vector<std::string> lines_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
-}
+using Rooms = std::map<std::string, std::set<std::string>>;
 
 std::set<std::string> words_of(const std::string& text) {
   static const std::regex word("[a-z]+");
@@ -59,26 +52,6 @@ std::set<std::string> visible_from(const std::string& room, const Rooms& rooms) 
       if (seen.insert(next).second) open.push_back(next);
   }
   return seen;
-}
-
-std::vector<fs::path> code_below(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp")
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<std::string> includes_of(const fs::path& file) {
-  static const std::regex directive(R"(^\s*#\s*include\s*["<]([^">]+)[">])");
-  std::vector<std::string> result;
-  for (const std::string& line : lines_of(file)) {
-    std::smatch match;
-    if (std::regex_search(line, match, directive)) result.push_back(match[1]);
-  }
-  return result;
 }
 
 std::string room_of_include(const std::string& include) {
@@ -154,3 +127,5 @@ TEST(Headers, AreIncludedOnceAndExist) {
             << file << " includes " << include;
     }
 }
+
+}  // namespace conchoid

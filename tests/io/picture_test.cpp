@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/io/stroke_font.hpp"

@@ -1,5 +1,7 @@
 #include "conchoid/io/run_folder.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

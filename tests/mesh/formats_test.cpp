@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"

@@ -1,5 +1,7 @@
 #include "conchoid/mesh/regions.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "conchoid/mesh/models.hpp"

@@ -1,5 +1,6 @@
 #include "conchoid/crack/front_steps.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "conchoid/crack/criterion.hpp"

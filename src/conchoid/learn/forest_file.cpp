@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "conchoid/core/error.hpp"
+
+#include <algorithm>
 #include "conchoid/learn/bytes.hpp"
 #include "conchoid/learn/forest.hpp"
 

@@ -1,6 +1,7 @@
 #include "conchoid/mesh/corefine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>

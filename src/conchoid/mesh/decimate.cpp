@@ -1,6 +1,7 @@
 #include "conchoid/mesh/decimate.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <queue>
 
 namespace conchoid {

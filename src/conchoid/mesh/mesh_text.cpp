@@ -1,5 +1,6 @@
 #include "conchoid/mesh/mesh_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

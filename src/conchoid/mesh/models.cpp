@@ -1,5 +1,6 @@
 #include "conchoid/mesh/models.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
