@@ -1,5 +1,7 @@
 #include "conchoid/surface/weld_fragments.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "conchoid/mesh/self_intersection.hpp"

@@ -1,6 +1,7 @@
 #include "conchoid/surface/weld_fragments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
