@@ -69,7 +69,7 @@ void front_advance(benchmark::State& state) {
     steps.push_back({start.fronts[0].nodes[i], frames[i], 0.2, 2e6});
     motions.push_back({start.fronts[0].nodes[i], 0.5 * edge * frames[i].e2});
   }
-  const ToughnessField toughness = [](const Vec3&) { return 1e6; };
+  const ToughnessField toughness = [](const Vec3&) { return Toughness{1e6, Vec3::Zero()}; };
   side_by_side(
       state,
       [&] {

@@ -6,7 +6,7 @@ packages=(
   g++ cmake ninja-build
   libeigen3-dev libopenblas-dev liblapack-dev libtbb-dev libfmt-dev libxxhash-dev
   libhdf5-dev libxgboost-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
-  libembree-dev libpng-dev libqhull-dev libopenvdb-dev
+  libembree-dev libpng-dev libqhull-dev libopenvdb-dev libboost-dev
   libgtest-dev libbenchmark-dev libassimp-dev
 )
 

@@ -219,6 +219,27 @@ const std::vector<BadInput> kBadInputs = {
      kMesh,
      {"scene.toml:1", "surface"}},
 
+    {"field_unknown_kind",
+     scene(kCube + "[material.toughness_field]\nkind = \"wood\"\n"),
+     kRun,
+     {"scene.toml:7", "grains"}},
+    {"field_without_size",
+     scene(kCube + "[material.strength_field]\nkind = \"grains\"\n"),
+     kRun,
+     {"scene.toml:6", "size"}},
+    {"field_foreign_vdb",
+     [](const TemporaryFolder& folder) {
+       folder.write("grains.vdb", "no voxels here");
+       folder.write("scene.toml",
+                    kCube + "[material.toughness_field]\nkind = \"vdb\"\nfile = \"grains.vdb\"\n");
+     },
+     kRun,
+     {"scene.toml:8", "grains.vdb", "write it again"}},
+    {"field_is_a_list_of_numbers",
+     scene(kCube + "toughness_field = [1.0, 2.0]\n"),
+     kRun,
+     {"scene.toml:6", "[[material.toughness_field]]"}},
+
     // meshes
     {"mesh_missing", scene(kMeshScene), kMesh, {"scene.toml:2", "body.off"}},
     {"mesh_hole", mesh_scene(changed([](TriMesh& m) { m.corners.pop_back(); })), kMesh, {"body.off", "hole"}},

@@ -106,7 +106,11 @@ struct Cracks {
           steps.push_back({front.nodes[k], frames[k], angle, 2 * kToughness});
       if (!steps.empty())
         advance_fronts(
-            sheet, fine, steps, [](const Vec3&) { return kToughness; }, kEdge);
+            sheet, fine, steps,
+            [](const Vec3&) {
+              return Toughness{kToughness, Vec3::Zero()};
+            },
+            kEdge);
     }
   }
 };

@@ -15,8 +15,8 @@ namespace {
 constexpr double kEdge = 0.2, kSpacing = 0.02, kToughness = 1e6;
 const FineFrontSettings kSettings{.resolution = kEdge, .spacing = kSpacing};
 
-double homogeneous(const Vec3&) {
-  return kToughness;
+Toughness homogeneous(const Vec3&) {
+  return {kToughness, Vec3::Zero()};
 }
 
 /// K_eff that moves a node by the given share of r̄ per frame.
@@ -200,7 +200,7 @@ TEST(FineFront, WhereNothingMovesMarkersStop) {
 
 TEST(FineFront, ATougherHalfIsFeltByTheMarkers) {
   Growth growth(disc(1, 5));
-  const auto layered = [](const Vec3& x) { return x.x() > 0.005 ? 2.5e6 : 1e6; };
+  const auto layered = [](const Vec3& x) { return Toughness{x.x() > 0.005 ? 2.5e6 : 1e6, Vec3::Zero()}; };
   const auto steps = steps_of(
       growth.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return 0.75; });  // K_eff = 2 MPa√m
   advance_fronts(growth.sheet, growth.fine, steps, layered, kEdge);

@@ -90,9 +90,58 @@ const BrokenScene kBroken[] = {
      {"scene.toml:3", "> -1"}},
     {"negative_toughness", kCube + "toughness = -1.0\n", {"scene.toml:6", "> 0 Pa√m"}},
     {"compressive_factor", kCube + "compressive_factor = 0.5\n", {"scene.toml:6", "≥ 1"}},
-    {"toughness_field",
-     kCube + "[material.toughness_field]\nkind = \"grains\"\n",
-     {"scene.toml:7", "grains", "homogeneous"}},
+    {"field_kind",
+     kCube + "[material.toughness_field]\nkind = \"grain\"\n",
+     {"scene.toml:7", "did you mean \"grains\"?", "layers"}},
+    {"field_without_kind",
+     kCube + "[material.strength_field]\namplitude = 0.5\n",
+     {"scene.toml:6", "[material.strength_field] lacks kind"}},
+    {"field_unknown_key",
+     kCube + "[material.strength_field]\nkind = \"noise\"\nwavelenght = 0.5\n",
+     {"scene.toml:8", "did you mean wavelength?"}},
+    {"field_foreign_key",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\noctaves = 3\n",
+     {"scene.toml:9", "octaves", "noise", "remove"}},
+    {"field_key_of_homogeneous",
+     kCube + "[material.toughness_field]\nkind = \"homogeneous\"\nseed = 3\n",
+     {"scene.toml:8", "seed", "remove"}},
+    {"layers_without_wavelength",
+     kCube + "[material.toughness_field]\nkind = \"layers\"\namplitude = 0.3\n",
+     {"scene.toml:6", "lacks wavelength"}},
+    {"layers_too_strong",
+     kCube + "[material.toughness_field]\nkind = \"layers\"\nwavelength = 0.1\namplitude = 1.0\n",
+     {"scene.toml:9", "< 1"}},
+    {"layers_no_direction",
+     kCube + "[material.toughness_field]\nkind = \"layers\"\nwavelength = 0.1\namplitude = "
+             "0.3\ndirection = [0, 0, 0]\n",
+     {"scene.toml:10", "(0, 0, 0)"}},
+    {"grains_weakening_one",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\nweakening = 1.0\n",
+     {"scene.toml:9", "weakening", "< 1"}},
+    {"grains_thin_boundaries",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\nwidth = 0.001\n",
+     {"scene.toml:9", "width", "size / 50"}},
+    {"grains_stretch",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\nstretch = [1, 1, 0]\n",
+     {"scene.toml:9", "> 0"}},
+    {"noise_octaves",
+     kCube + "[material.toughness_field]\nkind = \"noise\"\nwavelength = 0.1\namplitude = 0.2\noctaves = "
+             "40\n",
+     {"scene.toml:10", "1 … 16"}},
+    {"field_axes_oblique",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\naxes = [[1, 0, 0], [1, 1, 0], "
+             "[0, 0, 1]]\n",
+     {"scene.toml:9", "right angles"}},
+    {"field_two_axes",
+     kCube + "[material.toughness_field]\nkind = \"grains\"\nsize = 0.1\naxes = [[1, 0, 0], [0, 1, 0]]\n",
+     {"scene.toml:9", "must hold 3"}},
+    {"field_in_a_list_wrong_there",
+     kCube + "[[material.toughness_field]]\nkind = \"grains\"\nsize = 0.1\n[[material.toughness_field]]\n"
+             "kind = \"noise\"\nwavelength = -1\namplitude = 0.2\n",
+     {"scene.toml:11", "wavelength", "> 0 m"}},
+    {"vdb_missing",
+     kCube + "[material.toughness_field]\nkind = \"vdb\"\nfile = \"nowhere.vdb\"\n",
+     {"scene.toml:8", "nowhere.vdb"}},
     {"resolution_zero", kCube + "[resolution]\ncrack = 0.0\n", {"scene.toml:7", "> 0 m"}},
     {"surface_coarser", kCube + "[resolution]\ncrack = 0.1\nsurface = 0.2\n", {"scene.toml:8", "smaller"}},
     {"region_without_name",
@@ -172,6 +221,30 @@ TEST_P(BrokenSceneTest, NamesPlaceAndRemedy) {
 }
 INSTANTIATE_TEST_SUITE_P(All, BrokenSceneTest, testing::ValuesIn(kBroken),
                          [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Scene, MaterialFieldsAreReadWithTheirPlaces) {
+  const Scene scene =
+      parse(kCube +
+            "[[material.toughness_field]]\nkind = \"layers\"\ndirection = [0, 3, 4]\n"
+            "wavelength = 0.2\namplitude = 0.3\nphase = 0.25\n"
+            "[[material.toughness_field]]\nkind = \"homogeneous\"\n"
+            "[[material.toughness_field]]\nkind = \"grains\"\nsize = 0.1\nseed = 7\n"
+            "origin = [1, 2, 3]\naxes = [[0, 2, 0], [-1, 0, 0], [0, 0, 1]]\n"
+            "[material.strength_field]\nkind = \"noise\"\nwavelength = 0.3\namplitude = 0.4\n");
+  const auto& toughness = scene.material.toughness_field;
+  ASSERT_EQ(toughness.size(), 2u);
+  const Layers& layers = std::get<Layers>(toughness[0].kind);
+  EXPECT_EQ(layers.direction, Vec3(0, 0.6, 0.8));
+  EXPECT_EQ(layers.phase, 0.25);
+  EXPECT_FALSE(toughness[0].placement.origin.has_value());
+  const Grains& grains = std::get<Grains>(toughness[1].kind);
+  EXPECT_EQ(grains.seed, 7u);
+  EXPECT_DOUBLE_EQ(grains.width, 0.02);
+  EXPECT_EQ(*toughness[1].placement.origin, Vec3(1, 2, 3));
+  EXPECT_EQ(toughness[1].placement.axes.col(0), Vec3::UnitY());
+  ASSERT_EQ(scene.material.strength_field.size(), 1u);
+  EXPECT_EQ(std::get<Noise>(scene.material.strength_field[0].kind).amplitude, 0.4);
+}
 
 TEST(Scene, TheExampleOfTheDocumentation) {
   const Scene scene = parse(R"([body]

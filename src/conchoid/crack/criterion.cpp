@@ -69,6 +69,13 @@ double rayleigh_speed(const ElasticConstants& m, double density, RayleighFormula
   return shear_speed * std::sqrt(0.5 * (low + high));
 }
 
+double toughness_turn(double fall, double effective_intensity, double toughness) {
+  if (fall == 0 || !(effective_intensity > toughness)) return 0;
+  const double widest =
+      std::min(2 * std::acos(std::cbrt(toughness / effective_intensity)), std::acos(1.0 / 3));
+  return fall / std::sqrt(1 + fall * fall) * widest;
+}
+
 double advance_length(double effective_intensity, double toughness, double resolution) {
   if (!(effective_intensity > 0) || effective_intensity < toughness) return 0;
   const double ratio = toughness / effective_intensity;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/front_frames.hpp"
+#include "conchoid/crack/front_smoothing.hpp"
 #include "conchoid/crack/strip.hpp"
 #include "conchoid/crack/subdivide.hpp"
 
@@ -143,8 +145,10 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     if (settings_.smooth_angles) steps.smooth_angles();
     MarkerCurve& curve = curves_[f];
     set_parameters(curve, steps.nodes());
-    for (Marker& marker : curve.markers)
+    for (Marker& marker : curve.markers) {
       marker.direction_before = marker.direction;
+      marker.moved = false;
+    }
     std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
     for (std::size_t k = 0; k < steps.size(); ++k)
       inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
@@ -161,30 +165,6 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     append_motions(sheet, curve, steps, motions);
   }
   return motions;
-}
-
-bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
-                             int step, int count) const {
-  const double turned =
-      settings_.turn_within > 0 ? std::min(1.0, (step + 1) / (count * settings_.turn_within)) : 1.0;
-  bool moved = false;
-  for (Marker& marker : curve.markers) {
-    if (marker.arrested) continue;
-    const double length =
-        steps.length(marker.parameter, toughness(marker.position), settings_.resolution) / count;
-    if (!(length > 0)) continue;
-    const FrontFrame frame = steps.frame(marker.parameter);
-    double angle = steps.angle(marker.parameter);
-    if (turned < 1 && !marker.direction_before.isZero(0)) {
-      const double before =
-          std::atan2(marker.direction_before.dot(frame.e1), marker.direction_before.dot(frame.e2));
-      angle = (1 - turned) * before + turned * angle;
-    }
-    marker.direction = direction_at(frame.e1, frame.e2, angle);
-    marker.position += length * marker.direction;
-    moved = true;
-  }
-  return moved;
 }
 
 void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
@@ -262,16 +242,19 @@ void FineFront::leave_row(MarkerCurve& curve, double least) {
 /// where the fine front has closed already the coarse one closes on its centre.
 void FineFront::append_motions(const CrackSheet& sheet, MarkerCurve& curve, const FrontSteps& steps,
                                std::vector<FrontMotion>& motions) const {
+  std::unordered_set<NodeId> held;  // coarse nodes that wait in tough material
+  for (const Marker& marker : curve.markers)
+    if (varied_ && marker.coarse.valid() && !marker.moved) held.insert(marker.coarse);
   std::vector<bool> moves;
   Vec3 center = Vec3::Zero();
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    moves.push_back(steps.moves(k));
+    moves.push_back(steps.moves(k) && !held.contains(steps.nodes()[k]));
     center += sheet.mesh.positions[steps.nodes()[k]] / static_cast<double>(steps.size());
   }
   slide_riders(curve, steps.nodes(), moves);
   std::unordered_map<NodeId, Vec3> position;
-  for (const Marker& marker : curve.markers)
-    if (marker.coarse.valid()) position.emplace(marker.coarse, marker.position);
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if (curve.markers[i].coarse.valid()) position.emplace(curve.markers[i].coarse, coarse_position(curve, i));
   for (std::size_t k = 0; k < steps.size(); ++k) {
     if (!moves[k]) continue;
     const NodeId node = steps.nodes()[k];
@@ -284,11 +267,15 @@ void FineFront::append_motions(const CrackSheet& sheet, MarkerCurve& curve, cons
   }
 }
 
+Vec3 FineFront::coarse_position(const MarkerCurve& curve, std::size_t i) const {
+  return varied_ ? smoothed_position(curve, i, settings_.resolution) : curve.markers[i].position;
+}
+
 std::optional<Vec3> FineFront::between(NodeId a, NodeId b, double s) const {
   for (const MarkerCurve& curve : curves_) {
     const std::size_t i = index_of(curve, a), j = index_of(curve, b);
     if (i < curve.size() && j < curve.size())
-      return curve.markers[marker_between(curve, i, j, s, true)].position;
+      return coarse_position(curve, marker_between(curve, i, j, s, true));
   }
   return std::nullopt;
 }
@@ -354,7 +341,7 @@ void arrest_touching(CrackSheet& sheet, const std::vector<FrontStep>& steps, con
   for (const FrontStep& step : steps) {
     if (sheet.state[step.node] == FrontState::arrested) continue;
     const double length =
-        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]), target_edge);
+        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]).value, target_edge);
     if (length > 0)
       expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
   }

@@ -20,18 +20,27 @@ struct FineFrontSettings {
   bool smooth_angles = true;  ///< see FrontSteps::smooth_angles
 };
 
-/// Toughness K_c [Pa·√m] at a point.
-using ToughnessField = std::function<double(const Vec3&)>;
+/// Toughness at a point.
+struct Toughness {
+  double value = 0;              ///< K_c [Pa·√m]
+  Vec3 gradient = Vec3::Zero();  ///< of K_c [Pa/√m]
+};
+using ToughnessField = std::function<Toughness(const Vec3&)>;
 
 /// The visible crack surface: along every coarse front a polyline of markers, about h apart (kept within 0.5
-/// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker. A frame of r̄/c_R
-/// is made in sub-steps; a marker moves by
+/// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker; where the
+/// toughness varies it lies on the markers' curve smoothed over r̄, as the boundary elements see nothing
+/// finer. A frame of r̄/c_R is made in sub-steps; a marker moves by
 ///     advance_length(K_eff, K_c(x), r̄) / sub-steps,
 /// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
 /// frame, in a direction that turns from its direction in the frame before to the interpolated θ. A marker
-/// that has not moved before kinks at once. A marker leaves a row of triangles behind whenever it is half of
-/// h from its last one, so slow fronts leave no slivers; its position may be that much ahead of the sheet
-/// (see finish()). The body's surface is not seen here.
+/// that has not moved before kinks at once. Where the toughness varies, each sub-step turns from there
+/// towards its fall (toughness_turn), but not beyond the bottom of a valley; and a marker off the front
+/// smoothed over r̄ feels what the front's shape does to K, to first order for a wave of wavelength r̄ (Rice
+/// 1985): K_eff (1 + π · lag/r̄), and a fall of height/r̄ back to it. Else tough spots would be
+/// left behind for good, and neighbours part without end. A marker leaves a row of triangles behind whenever
+/// it is half of h from its last one, so slow fronts leave no slivers; its position may be that much ahead of
+/// the sheet (see finish()). The body's surface is not seen here.
 ///
 /// A marker stops for good at the face of a crack: half of h before it where it is a face of its own crack,
 /// which may not cross itself, and half of h beyond where it is another's, so that the two cut the body
@@ -75,8 +84,25 @@ class FineFront {
   std::vector<NodeId> stopped_riders() const;
 
  private:
+  /// How a marker lies against the front smoothed over r̄.
+  struct Relief {
+    double intensity = 1;  ///< factor on K_eff: what lags behind gets more
+    double height = 0;     ///< towards e1 [r̄]
+  };
+  /// What a marker is about to do in a sub-step.
+  struct Path {
+    Vec3 position;
+    double length;
+    FrontFrame frame;
+    double angle, intensity, height;
+  };
+
   bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness, int step,
-                    int count) const;
+                    int count);
+  std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps) const;
+  double weaker_side(const Path& path, const Toughness& here, const ToughnessField& toughness) const;
+  /// Where a coarse node lies that rides on marker i.
+  Vec3 coarse_position(const MarkerCurve& curve, std::size_t i) const;
   /// Stops markers whose path since `from` (positions, one per marker) leads into a face.
   void stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
                      const std::vector<bool>& inside) const;
@@ -93,6 +119,7 @@ class FineFront {
   FaceGrid faces_;
   std::size_t known_triangles_ = 0;  ///< of the sheet
   int frame_ = 0;
+  bool varied_ = false;  ///< the toughness does
 };
 
 /// One frame of the coarse and the fine front together. Nodes about to touch (touching_nodes) are arrested

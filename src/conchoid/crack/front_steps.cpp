@@ -85,6 +85,13 @@ double FrontSteps::angle(double parameter) const {
   return (1 - s) * steps_[a].angle + s * steps_[b].angle;
 }
 
+double FrontSteps::intensity(double parameter) const {
+  const auto [a, b, s] = place(parameter);
+  if (!moves(a)) return steps_[b].intensity;
+  if (!moves(b)) return steps_[a].intensity;
+  return (1 - s) * steps_[a].intensity + s * steps_[b].intensity;
+}
+
 double FrontSteps::length(double parameter, double toughness, double resolution) const {
   const auto [a, b, s] = place(parameter);
   return (1 - s) * advance_length(steps_[a].intensity, toughness, resolution) +

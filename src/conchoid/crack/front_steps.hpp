@@ -40,6 +40,8 @@ class FrontSteps {
   /// Frame interpolated; θ interpolated between two nodes that move, else the one's that does.
   FrontFrame frame(double parameter) const;
   double angle(double parameter) const;
+  /// K_eff interpolated likewise [Pa·√m].
+  double intensity(double parameter) const;
   /// advance_length() of both nodes, interpolated [m].
   double length(double parameter, double toughness, double resolution) const;
 

@@ -263,6 +263,8 @@ BodySetup set_up_body(const Scene& scene) {
     out.ambient =
         uniform_stress(scene.remote_stress, scene.material.youngs_modulus, scene.material.poisson_ratio);
   }
+  out.toughness = MaterialField(scene.material.toughness_field, out.origin);
+  out.strength = MaterialField(scene.material.strength_field, out.origin);
   add_cracks(scene, body.model.crack, out);
   if (!(out.crack_edge > 0)) out.crack_edge = mean_boundary_edge(out.cracks.front());
   out.surface_edge = scene.resolution.surface.value_or(out.crack_edge / 20);

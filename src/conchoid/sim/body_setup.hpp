@@ -22,6 +22,8 @@ struct BodySetup {
   BoundaryData data;
   AmbientField ambient;         ///< stress at infinity, or that of inertia relief
   std::vector<TriMesh> cracks;  ///< initial crack sheets; those that end on the surface stick out of it
+  MaterialField toughness;      ///< factor on the material's toughness, at centred points
+  MaterialField strength;       ///< factor on its strength
   double crack_edge = 0;        ///< r̄ [m]
   double surface_edge = 0;      ///< h [m]
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/bem/surface_stress.hpp"
@@ -34,12 +35,31 @@ CrackSheet initial_sheet(const BodySetup& setup) {
 }
 
 std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptions& options, BemOpening& bem,
-                                              double r) {
+                                              const BodySetup& setup) {
   const SifSettings sif = sif_settings(scene.run);
-  if (options.method == Method::steady) return make_steady_opening(bem, scene.material, r, sif);
+  if (options.method == Method::steady) return make_steady_opening(bem, scene.material, setup, sif);
   if (options.method == Method::forest)
-    return make_forest_opening(bem, *options.forest, scene.material, r, sif);
+    return make_forest_opening(bem, *options.forest, scene.material, setup, sif);
   return nullptr;
+}
+
+struct WeakPoint {
+  Vec3 position;
+  double strength;
+};
+
+// The point of least strength in a triangle, among evenly spread ones.
+WeakPoint weakest_point(const Triangle& x, double strength, const MaterialField& field) {
+  constexpr int kParts = 8;
+  WeakPoint weakest{Vec3::Zero(), std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < kParts; ++i)
+    for (int j = 0; i + j < kParts; ++j) {
+      const double a = (i + 1.0 / 3) / kParts, b = (j + 1.0 / 3) / kParts;
+      const Vec3 at = a * x[0] + b * x[1] + (1 - a - b) * x[2];
+      const double here = strength * field.at(at).value;
+      if (here < weakest.strength) weakest = {at, here};
+    }
+  return weakest;
 }
 
 // Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
@@ -58,16 +78,20 @@ std::vector<InitiationCandidate> find_candidates(const BodySetup& setup, const C
     if (cut[t] || setup.data.kind[t] == BoundaryKind::displacement) continue;
     const PrincipalStress p = principal_stress(stress[t]);
     const Vec3 n = unit_normal(setup.surface, TriId(t));
-    if (p.value[0] <= strength || std::abs(p.direction.col(0).dot(n)) > kAlongSurface) continue;
+    if (std::abs(p.direction.col(0).dot(n)) > kAlongSurface) continue;
     auto nodes = setup.surface.corners[TriId(t)];
     std::sort(nodes.begin(), nodes.end());
     const auto& x = setup.surface.positions;
-    const Vec3 at = centroid(setup.surface, TriId(t));
+    const auto [at, local_strength] =
+        setup.strength.homogeneous()
+            ? WeakPoint{centroid(setup.surface, TriId(t)), strength}
+            : weakest_point({x[nodes[0]], x[nodes[1]], x[nodes[2]]}, strength, setup.strength);
+    if (p.value[0] <= local_strength) continue;
     out.push_back({at,
                    p.value[0],
                    p.direction.col(0),
                    -n,
-                   strength,
+                   local_strength,
                    TriId(t),
                    {x[nodes[0]], x[nodes[1]], x[nodes[2]]},
                    (at - center).norm()});
@@ -93,15 +117,18 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
       m_(scene.material.elastic()),
       setup_(set_up_body(scene)),
       bem_(setup_, m_, sif_settings(scene.run), {scene.run.quadrature_tolerance, scene.run.contact}),
-      predictor_(make_predictor(scene, options, bem_, setup_.crack_edge)),
-      history_(scene.material, setup_.crack_edge),
+      predictor_(make_predictor(scene, options, bem_, setup_)),
+      history_(scene.material, setup_.toughness, setup_.crack_edge),
       crack_{initial_sheet(setup_), {}, {}, {}, {}, {}},
       fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = setup_.surface_edge}),
       rayleigh_speed_(rayleigh_speed(
           m_, scene.material.density,
           scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
   crack_.cut = whole_surface(setup_.surface);
-  toughness_ = [K_c = scene.material.toughness](const Vec3&) { return K_c; };
+  toughness_ = [this, K_c = scene.material.toughness](const Vec3& x) {
+    const FieldSample factor = setup_.toughness.at(x);
+    return Toughness{K_c * factor.value, K_c * factor.gradient};
+  };
 }
 
 // One new crack at a time, where the stress as last solved exceeds the strength most.
@@ -128,14 +155,16 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     const FrontOpening& o = openings[i];
     const FrontFrame& f = point.frame;
     const double K_eff = effective_intensity(o.intensity, m_);
-    const double length = crack_.sheet.state[point.node] == FrontState::arrested
-                              ? 0
-                              : advance_length(K_eff, scene_.material.toughness, setup_.crack_edge);
+    const bool arrested = crack_.sheet.state[point.node] == FrontState::arrested;
+    const double K_c = toughness_(crack_.sheet.mesh.positions[point.node]).value;
+    const double length = arrested ? 0 : advance_length(K_eff, K_c, setup_.crack_edge);
     const bool thread = opening_from_intensity(o.intensity, setup_.crack_edge, m_).norm() >
                         kLargestOpening * setup_.crack_edge;
     const double angle = thread ? 0 : kink_angle(o.intensity, m_);
     largest_intensity_ = std::max(largest_intensity_, K_eff);
-    if (length > 0) steps.push_back({point.node, f, angle, K_eff});
+    // Where the toughness varies every marker decides for itself.
+    if (length > 0 || (!arrested && K_eff > 0 && !setup_.toughness.homogeneous()))
+      steps.push_back({point.node, f, angle, K_eff});
     FrontRow row;
     row.frame = frame;
     row.front = point.front;
@@ -165,8 +194,10 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
   }
   if (!predictor_) history_.remember(crack_, openings);
   for (const FrontPoint& point : ligament_points(crack_))
-    steps.push_back({point.node, point.frame, 0,
-                     std::max(largest_intensity_, kLigamentIntensity * scene_.material.toughness)});
+    steps.push_back(
+        {point.node, point.frame, 0,
+         std::max(largest_intensity_,
+                  kLigamentIntensity * toughness_(crack_.sheet.mesh.positions[point.node]).value)});
   return steps;
 }
 
@@ -245,6 +276,7 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   record.other_seconds = clock.lap();
   if (solved()) start_cracks(result);
   const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
+  const std::size_t before = fine_.surface().triangle_count() + crack_.sheet.mesh.triangle_count();
   if (!steps.empty())
     advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge);
   if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
@@ -254,7 +286,9 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   doc.opening_seconds += record.opening_seconds;
   doc.fracture_seconds += record.fracture_seconds;
   doc.timings.push_back(record);
-  return steps.empty() && !new_crack ? "arrested" : "frame-limit";
+  const bool grown = fine_.surface().triangle_count() + crack_.sheet.mesh.triangle_count() > before;
+  const bool moved = setup_.toughness.homogeneous() ? !steps.empty() : grown;
+  return !moved && !new_crack ? "arrested" : "frame-limit";
 }
 
 void FrameLoop::run(RunResult& result, RunFolder* folder) {

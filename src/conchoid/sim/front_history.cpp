@@ -17,7 +17,7 @@ std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontP
   s.frame = crack.sheet.frame + 1;
   s.node = point.correlation.value;
   s.K = before->intensity;
-  s.toughness = material_.toughness;
+  s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[point.correlation]).value;
   s.resolution = resolution_;
   s.distance_before = before->distance;
   s.distance_after = point.distance;

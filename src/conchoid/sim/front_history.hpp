@@ -16,8 +16,9 @@ struct FrontOpening;
 /// per such pair.
 class FrontHistory {
  public:
-  FrontHistory(const MaterialSpec& material, double resolution)
-      : material_(material), resolution_(resolution) {}
+  /// @param toughness  factor on the material's
+  FrontHistory(const MaterialSpec& material, const MaterialField& toughness, double resolution)
+      : material_(material), toughness_(toughness), resolution_(resolution) {}
 
   /// The sample of a point whose correlation node was on the front in the frame before; its label is left at
   /// zero.
@@ -35,6 +36,7 @@ class FrontHistory {
 
  private:
   MaterialSpec material_;
+  MaterialField toughness_;
   double resolution_;
   std::unordered_map<NodeId, Entry> entries_;
 };

@@ -54,8 +54,9 @@ class BemOpening : public OpeningSource {
 /// correlation node had when it was on the front. Linear in the number of front points.
 class PredictedOpening : public OpeningSource {
  public:
-  PredictedOpening(BemOpening& first, const MaterialSpec& material, double resolution, const SifSettings& sif)
-      : first_(first), sif_(sif), history_(material, resolution) {}
+  PredictedOpening(BemOpening& first, const MaterialSpec& material, const BodySetup& setup,
+                   const SifSettings& sif)
+      : first_(first), sif_(sif), history_(material, setup.toughness, setup.crack_edge) {}
   std::vector<FrontOpening> open(const CrackState& crack) override;
 
  protected:
@@ -80,11 +81,11 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
 
 /// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   double resolution, const SifSettings& sif);
+                                                   const BodySetup& setup, const SifSettings& sif);
 /// A regression forest (learn/forest.hpp), which must outlive the source.
 class RegressionForest;
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, double resolution,
+                                                   const MaterialSpec& material, const BodySetup& setup,
                                                    const SifSettings& sif);
 
 }  // namespace conchoid

@@ -45,8 +45,8 @@ class SteadyOpening : public PredictedOpening {
 class ForestOpening : public PredictedOpening {
  public:
   ForestOpening(BemOpening& first, const RegressionForest& forest, const MaterialSpec& material,
-                double resolution, const SifSettings& sif)
-      : PredictedOpening(first, material, resolution, sif), forest_(forest) {}
+                const BodySetup& setup, const SifSettings& sif)
+      : PredictedOpening(first, material, setup, sif), forest_(forest) {}
   std::string name() const override { return "forest"; }
 
  protected:
@@ -121,14 +121,14 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
 }
 
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   double resolution, const SifSettings& sif) {
-  return std::make_unique<SteadyOpening>(first, material, resolution, sif);
+                                                   const BodySetup& setup, const SifSettings& sif) {
+  return std::make_unique<SteadyOpening>(first, material, setup, sif);
 }
 
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, double resolution,
+                                                   const MaterialSpec& material, const BodySetup& setup,
                                                    const SifSettings& sif) {
-  return std::make_unique<ForestOpening>(first, forest, material, resolution, sif);
+  return std::make_unique<ForestOpening>(first, forest, material, setup, sif);
 }
 
 }  // namespace conchoid

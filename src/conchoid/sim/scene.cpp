@@ -18,16 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path existing_file(const TomlTable& table, std::string_view key, const fs::path& folder) {
-  std::string name;
-  table.require(key, name);
-  const fs::path path = folder / name;
-  if (!fs::is_regular_file(path))
-    table.fail(key, fmt::format("there is no file {}; file names are relative to the scene's folder",
-                                path.string()));
-  return path;
-}
-
 template <class T>
 std::optional<T> optional_value(const TomlTable& table, std::string_view key) {
   if (!table.has(key)) return std::nullopt;
@@ -68,7 +58,7 @@ BodySpec read_body(const TomlTable& file, const fs::path& folder) {
   return body;
 }
 
-MaterialSpec read_material(const TomlTable& file) {
+MaterialSpec read_material(const TomlTable& file, const fs::path& folder) {
   const auto table = file.table("material");
   if (!table) file.fail({}, "there is no [material]; add it, with youngs_modulus and poisson_ratio");
   table->require_known_keys();
@@ -79,11 +69,8 @@ MaterialSpec read_material(const TomlTable& file) {
   table->read("strength", m.strength);
   table->read("toughness", m.toughness);
   table->read("compressive_factor", m.compressive_factor);
-  if (const auto field = table->table("toughness_field")) {
-    std::string kind;
-    field->require("kind", kind);
-    field->require_known_keys();
-  }
+  m.toughness_field = read_material_field(*table, "toughness_field", folder);
+  m.strength_field = read_material_field(*table, "strength_field", folder);
   return m;
 }
 
@@ -194,28 +181,19 @@ void read_rectangle(const TomlTable& table, CrackSpec& crack) {
     table.fail("edges", "crack.edges are not at a right angle; correct them, or give the crack as a mesh");
 }
 
-/// Keys of [[crack]] that belong to another kind are contradictions.
-void require_keys_of_kind(const TomlTable& table, const std::string& kind) {
-  const std::vector<std::pair<std::string_view, std::set<std::string>>> kinds_of_key = {
-      {"center", {"disc", "ellipse", "rectangle"}},
-      {"normal", {"disc", "ellipse"}},
-      {"radius", {"disc"}},
-      {"axes", {"ellipse"}},
-      {"direction", {"disc", "ellipse"}},
-      {"edges", {"rectangle"}},
-      {"file", {"mesh"}},
-      {"triangles", {"disc", "ellipse", "rectangle"}}};
-  for (const auto& [key, kinds] : kinds_of_key)
-    if (table.has(key) && !kinds.contains(kind))
-      table.fail(key, fmt::format("crack.{} does not go with kind = \"{}\" but with {}; remove it", key, kind,
-                                  fmt::join(kinds, ", ")));
-}
-
 CrackSpec read_crack(const TomlTable& table, const fs::path& folder) {
   table.require_known_keys();
   std::string kind;
   table.require("kind", kind);
-  require_keys_of_kind(table, kind);
+  require_keys_of_kind(table, "crack", kind,
+                       {{"center", {"disc", "ellipse", "rectangle"}},
+                        {"normal", {"disc", "ellipse"}},
+                        {"radius", {"disc"}},
+                        {"axes", {"ellipse"}},
+                        {"direction", {"disc", "ellipse"}},
+                        {"edges", {"rectangle"}},
+                        {"file", {"mesh"}},
+                        {"triangles", {"disc", "ellipse", "rectangle"}}});
   CrackSpec crack;
   crack.where = table.where();
   crack.triangles = optional_value<int>(table, "triangles");
@@ -279,6 +257,26 @@ RunSpec read_run(const TomlTable& file) {
 
 }  // namespace
 
+fs::path existing_file(const TomlTable& table, std::string_view key, const fs::path& folder) {
+  std::string name;
+  table.require(key, name);
+  const fs::path path = folder / name;
+  if (!fs::is_regular_file(path))
+    table.fail(key, fmt::format("there is no file {}; file names are relative to the scene's folder",
+                                path.string()));
+  return path;
+}
+
+/// Keys that belong to another kind are contradictions.
+void require_keys_of_kind(
+    const TomlTable& table, std::string_view name, const std::string& kind,
+    const std::vector<std::pair<std::string_view, std::set<std::string>>>& kinds_of_key) {
+  for (const auto& [key, kinds] : kinds_of_key)
+    if (table.has(key) && !kinds.contains(kind))
+      table.fail(key, fmt::format("{}.{} does not go with kind = \"{}\" but with {}; remove it", name, key,
+                                  kind, fmt::join(kinds, ", ")));
+}
+
 std::string read_text_file(const fs::path& path) {
   if (fs::is_directory(path)) throw InputError(path.string() + ": is a folder; name the file");
   std::ifstream in(path, std::ios::binary);
@@ -307,7 +305,7 @@ Scene scene_from(const TomlTable& file, const std::string& name, const fs::path&
   Scene scene;
   scene.file = name;
   scene.body = read_body(file, folder);
-  scene.material = read_material(file);
+  scene.material = read_material(file, folder);
   scene.resolution = read_resolution(file);
   read_regions(file, scene);
   read_boundary(file, scene);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include "conchoid/sim/scene.hpp"
 #include "conchoid/sim/toml_table.hpp"
 
@@ -7,6 +9,20 @@ namespace conchoid {
 
 /// Whole content of a text file. Throws InputError when it cannot be read.
 std::string read_text_file(const std::filesystem::path& path);
+
+/// The file that `key` names. Throws InputError when it is not there. @param folder  of the scene
+std::filesystem::path existing_file(const TomlTable& table, std::string_view key,
+                                    const std::filesystem::path& folder);
+
+/// Throws InputError for a key that does not belong to the table's kind.
+/// @param name  of the table, for messages; @param kinds_of_key  keys that belong to some kinds only
+void require_keys_of_kind(
+    const TomlTable& table, std::string_view name, const std::string& kind,
+    const std::vector<std::pair<std::string_view, std::set<std::string>>>& kinds_of_key);
+
+/// The factors of the field [material.KEY] or [[material.KEY]] (material_keys.cpp).
+std::vector<FieldFactor> read_material_field(const TomlTable& material, std::string_view key,
+                                             const std::filesystem::path& folder);
 
 /// The scene in a parsed file; tables and keys that do not belong to scenes are not looked at.
 Scene scene_from(const TomlTable& file, const std::string& name, const std::filesystem::path& folder);

@@ -99,7 +99,10 @@ const std::vector<SettingTable>& setting_tables() {
   static const std::vector<SettingTable> tables = {
       {"body", false, true, "What breaks: a built-in model or a mesh file, one of the two."},
       {"material", false, true, "Isotropic, linear elastic, brittle."},
-      {"material.toughness_field", false, true, "How the toughness varies in the body."},
+      {"material.toughness_field", true, true,
+       "How the toughness varies in the body: a factor on material.toughness. One table [material."
+       "toughness_field], or several [[material.toughness_field]] whose factors multiply."},
+      {"material.strength_field", true, true, "The same for material.strength.", "material.toughness_field"},
       {"resolution", false, true, "How fine the crack is."},
       {"region", true, true,
        "A named part of the surface: the triangles whose three vertices lie in all its half spaces. A "
@@ -159,10 +162,83 @@ const std::vector<Setting>& settings() {
        text,
        "",
        "\"homogeneous\"",
-       "the same toughness everywhere",
+       "homogeneous: 1 everywhere. layers: 1 + a sin 2π(n·x/λ − phase). grains: Voronoi cells. noise: "
+       "exp(a · fractal noise). vdb: voxels of a file",
        {},
        0,
-       {"homogeneous"}},
+       {"homogeneous", "layers", "grains", "noise", "vdb"}},
+      {"material.toughness_field",
+       "origin",
+       numbers,
+       "m",
+       "",
+       "where the field's origin lies, in the scene's coordinates; without it at the centre of the body's "
+       "bounding box",
+       {},
+       3},
+      {"material.toughness_field",
+       "axes",
+       vectors,
+       "",
+       "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+       "the field's three axes, at right angles, of any length: turns the field with the body",
+       {},
+       3},
+      {"material.toughness_field",
+       "direction",
+       numbers,
+       "",
+       "[0.0, 0.0, 1.0]",
+       "layers: n, across them, along the field's axes; of any length",
+       {},
+       3},
+      {"material.toughness_field", "wavelength", number, "m", "",
+       "layers, noise: λ, of noise that of the first octave; required", above(0)},
+      {"material.toughness_field", "amplitude", number, "", "",
+       "layers: a, below 1; noise: a, standard deviation of the factor's logarithm; required", at_least(0)},
+      {"material.toughness_field", "phase", number, "wavelengths", "0.0",
+       "layers: shift along the direction"},
+      {"material.toughness_field", "octaves", integer, "octaves", "4",
+       "noise: each has half the wavelength of the one before", between(1, 16)},
+      {"material.toughness_field", "gain", number, "", "0.5",
+       "noise: amplitude of an octave over that of the one before", above(0)},
+      {"material.toughness_field", "size", number, "m", "",
+       "grains: grain size, the cube root of the mean volume; required", above(0)},
+      {"material.toughness_field", "stretch", numbers, "", "[1.0, 1.0, 1.0]",
+       "grains: factors on the size along the field's axes", above(0), 3},
+      {"material.toughness_field",
+       "weakening",
+       number,
+       "",
+       "0.5",
+       "grains: the boundaries have this share less",
+       {.low = 0, .high = 1, .high_included = false}},
+      {"material.toughness_field", "width", number, "m", "",
+       "grains: width of the weakened boundaries; without it size / 5, never below size / 50", above(0)},
+      {"material.toughness_field",
+       "spread",
+       number,
+       "",
+       "0.0",
+       "grains: each grain has its own factor, drawn evenly from 1 − spread … 1 + spread",
+       {.low = 0, .high = 1, .high_included = false}},
+      {"material.toughness_field", "seed", integer, "", "1", "grains, noise: another seed, another pattern",
+       between(0, 9007199254740992.0)},
+      {"material.toughness_field", "file", file, "", "",
+       "vdb: OpenVDB file with positive factors, smoothed over a voxel; required"},
+      {"material.toughness_field", "grid", text, "", "",
+       "vdb: name of the grid; needed if the file has several"},
+      {"material.toughness_field", "scale", number, "m", "1.0", "vdb: one unit of the grid's own coordinates",
+       above(0)},
+      {"material.toughness_field",
+       "outside",
+       text,
+       "",
+       "\"clamped\"",
+       "vdb: beyond the box of active voxels the outermost go on, or the box repeats",
+       {},
+       0,
+       {"clamped", "periodic"}},
 
       {"resolution", "crack", number, "m", "",
        "r̄, target edge of crack triangles; without it a tenth of the body's size (cube root of the volume) "
@@ -325,8 +401,15 @@ const std::vector<Setting>& settings() {
   return all;
 }
 
+std::string_view table_of_keys(std::string_view table) {
+  for (const SettingTable& t : setting_tables())
+    if (t.name == table && !t.keys_of.empty()) return t.keys_of;
+  return table;
+}
+
 const Setting* find_setting(std::string_view table, std::string_view key) {
   const auto& all = settings();
+  table = table_of_keys(table);
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const Setting& s) { return s.table == table && s.key == key; });
   return found == all.end() ? nullptr : &*found;
@@ -339,6 +422,7 @@ std::string settings_text(bool database) {
   for (const SettingTable& table : setting_tables()) {
     if (!table.in_scene && !database) continue;
     text += fmt::format("\n{}\n", heading(table));
+    if (!table.keys_of.empty()) text += fmt::format("  the keys of {}\n", table.keys_of);
     for (const Setting& s : settings()) {
       if (s.table != table.name) continue;
       text += fmt::format("  {} ({})", s.key, value_text(s));
@@ -352,8 +436,12 @@ std::string settings_text(bool database) {
 std::string settings_markdown() {
   std::string text;
   for (const SettingTable& table : setting_tables()) {
-    text += fmt::format("\n### `{}`\n\n{}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
-                        heading(table), table.help);
+    text += fmt::format("\n### `{}`\n\n{}\n", heading(table), table.help);
+    if (!table.keys_of.empty()) {
+      text += fmt::format("\nThe keys are those of `{}`.\n", table.keys_of);
+      continue;
+    }
+    text += "\n| key | value | default | meaning |\n|---|---|---|---|\n";
     for (const Setting& s : settings())
       if (s.table == table.name)
         text += fmt::format("| `{}` | {} | {} | {} |\n", s.key, value_text(s),

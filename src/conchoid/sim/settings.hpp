@@ -40,10 +40,13 @@ struct SettingTable {
   bool repeated;
   bool in_scene;  ///< false: only in the specification of a database
   std::string_view help;
+  std::string_view keys_of = {};  ///< the table whose keys it has; empty: its own
 };
 
 const std::vector<SettingTable>& setting_tables();
 const std::vector<Setting>& settings();
+/// The table that lists the keys of a table: mostly itself.
+std::string_view table_of_keys(std::string_view table);
 /// The setting, or nullptr.
 const Setting* find_setting(std::string_view table, std::string_view key);
 

@@ -79,7 +79,7 @@ void TomlTable::fail(std::string_view key, const std::string& what) const {
 void TomlTable::require_known_keys(bool database) const {
   std::vector<std::string_view> known;
   for (const Setting& s : settings())
-    if (s.table == content_->name) known.push_back(s.key);
+    if (s.table == table_of_keys(content_->name)) known.push_back(s.key);
   for (const SettingTable& t : setting_tables()) {
     const std::size_t dot = t.name.rfind('.');
     const bool nested = dot != std::string_view::npos;
@@ -117,11 +117,18 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   if (!node) return result;
   const toml::array* array = node->as_array();
   if (!array || !array->is_homogeneous(toml::node_type::table))
-    fail(key, fmt::format("{0} is {1}, but must be a list of tables; write [[{0}]]", key, type_text(*node)));
+    fail(key, fmt::format("{0} is {1}, but must be a list of tables; write [[{0}]]", content_->path(key),
+                          type_text(*node)));
   for (const toml::node& element : *array)
     result.push_back(TomlTable(std::make_shared<const Content>(
         Content{content_->document, element.as_table(), content_->file, content_->path(key)})));
   return result;
+}
+
+std::vector<TomlTable> TomlTable::one_or_more(std::string_view key) const {
+  const toml::node* node = content_->table->get(key);
+  if (!node || !node->is_table()) return tables(key);
+  return {*table(key)};
 }
 
 void TomlTable::require_key(std::string_view key) const {

@@ -30,6 +30,8 @@ class TomlTable {
   std::optional<TomlTable> table(std::string_view key) const;
   /// The tables [[key]] in this one.
   std::vector<TomlTable> tables(std::string_view key) const;
+  /// [key] or the tables [[key]], whichever is there.
+  std::vector<TomlTable> one_or_more(std::string_view key) const;
 
   // Each leaves `value` as it is where the key is missing.
   void read(std::string_view key, double& value) const;
