@@ -1,54 +1,70 @@
 #include "conchoid/io/picture.hpp"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/io/run_folder.hpp"
+#include "conchoid/io/run_pictures.hpp"
 
 namespace conchoid {
 namespace {
 
 struct PictureCommand {
   std::vector<std::string> runs;
-  std::string out;
-  double explode = 0.25;
+  std::string out, show = "pieces", up = "z";
+  std::vector<double> from;
+  int sheet = 0;  ///< frames on a contact sheet; 0: one panel per run
+  bool plain = false;
+  RunPictureSettings run;
   PictureSettings settings;
 };
 
-std::string method_title(const std::string& method) {
-  if (method == "bem") return "solved by boundary elements";
-  if (method == "forest") return "predicted by a forest";
-  if (method == "steady") return "predicted, K stays as it is";
-  return method;
+Vec3 up_direction(const std::string& name) {
+  const double sign = name.front() == '-' ? -1 : 1;
+  return sign * Vec3::Unit(name.back() - 'x');
 }
 
-PicturePanel panel_of(const RunData& run, double explode) {
-  const RunDocument& d = run.document;
-  PicturePanel panel;
-  panel.title = method_title(d.method);
-  panel.caption = fmt::format("{} after {} frames, {} piece{}, {:.2f} s", d.stop, d.frames,
-                              run.fragments.size(), run.fragments.size() == 1 ? "" : "s", d.total_seconds);
-  if (run.fragments.empty())
-    panel.meshes = crack_in_body({}, run.crack);
-  else if (run.fragments.size() == 1)
-    panel.meshes = crack_in_body(run.fragments.front().mesh, run.crack);
-  else
-    panel.meshes = exploded(run.fragments, explode);
-  return panel;
+/// The usual direction to the eye, from the front, the right and above, whichever way is up.
+Vec3 usual_view(const Vec3& up) {
+  const PictureSettings usual;
+  const Vec3 right = up.x() != 0 ? Vec3::UnitY() : Vec3::UnitX(), front = cross(right, up);
+  return usual.from.x() * right - usual.from.y() * front + usual.from.z() * up;
 }
 
-void draw_and_print(const PictureCommand& command, const CommonOptions& common) {
+std::vector<PicturePanel> panels_of(const PictureCommand& command) {
+  std::vector<PicturePanel> panels;
+  for (const std::string& folder : command.runs) {
+    const RunData run = read_run(folder);
+    if (command.sheet > 0)
+      for (PicturePanel& panel : frame_panels(run, folder, command.sheet, command.run))
+        panels.push_back(std::move(panel));
+    else
+      panels.push_back(run_panel(run, folder, command.run));
+  }
+  if (command.plain)
+    for (PicturePanel& panel : panels)
+      panel.title = panel.caption = "";
+  return panels;
+}
+
+void draw_and_print(PictureCommand command, const CommonOptions& common) {
   if (std::filesystem::path(command.out).extension() != ".png")
     throw InputError(command.out + ": pictures are written as PNG; name a file that ends in .png");
-  std::vector<PicturePanel> panels;
-  for (const std::string& run : command.runs)
-    panels.push_back(panel_of(read_run(run), command.explode));
+  if (command.sheet > 0 && command.runs.size() > 1)
+    throw InputError("--sheet shows the frames of one run; name one folder");
+  command.run.view = run_view_from_name(command.show);
+  command.settings.up = up_direction(command.up);
+  command.settings.from = command.from.empty() ? usual_view(command.settings.up)
+                                               : Vec3(command.from[0], command.from[1], command.from[2]);
+  if (command.settings.from.isZero(0))
+    throw InputError("--from 0,0,0 is no direction; name where to look from");
+  const std::vector<PicturePanel> panels = panels_of(command);
+  if (command.sheet > 0)
+    command.settings.columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
   write_picture(command.out, panels, command.settings);
   print(common.json ? nlohmann::ordered_json{{"file", command.out}, {"runs", command.runs}}.dump()
                     : command.out);
@@ -58,24 +74,54 @@ void draw_and_print(const PictureCommand& command, const CommonOptions& common) 
 
 void add_picture(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<PictureCommand>();
-  CLI::App* command =
-      add_command(program, invocation, "picture", "Draw the pieces of runs side by side (PNG)",
-                  [options, &invocation] { draw_and_print(*options, invocation.common); });
+  CLI::App* command = add_command(program, invocation, "picture",
+                                  "Draw runs: pieces, crack surface, K, opening, frames (PNG)",
+                                  [options, &invocation] { draw_and_print(*options, invocation.common); });
   command->add_option("RUN", options->runs, "run folders written by conchoid run --out")
       ->required()
       ->expected(1, 8);
   command->add_option("--out", options->out, "picture to write (.png)")->required();
   command
-      ->add_option("--explode", options->explode,
+      ->add_option("--show", options->show,
+                   "pieces moved apart, the crack surface alone, or K or the opening as colours")
+      ->check(CLI::IsMember({"pieces", "crack", "K", "opening"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--sheet", options->sheet,
+          "contact sheet: so many frames of one run, coloured by opening (or K with --show K); 0: none")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  command
+      ->add_option("--explode", options->run.explode,
                    "how far the pieces are moved apart, as a share of their distance")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
+  command
+      ->add_option("--exaggerate", options->run.exaggerate,
+                   "the crack's faces are drawn apart by so many times the opening")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  command->add_option("--up", options->up, "axis that points up: x, y, z, -x, -y, -z")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->capture_default_str();
+  command
+      ->add_option("--from", options->from,
+                   "direction to look from, X,Y,Z; from the front right above otherwise")
+      ->delimiter(',')
+      ->expected(3);
   command->add_option("--width", options->settings.width, "pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
   command->add_option("--height", options->settings.height, "pixels")
       ->check(CLI::Range(64, 8192))
       ->capture_default_str();
+  command
+      ->add_option("--samples", options->settings.samples,
+                   "rays per pixel and direction: smoother and slower")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str();
+  command->add_flag("--plain", options->plain, "no title and no caption");
 }
 
 }  // namespace conchoid

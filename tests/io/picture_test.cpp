@@ -14,7 +14,7 @@ using namespace conchoid;
 
 namespace {
 
-const PictureSettings small{240, 160, Vec3(0.62, -1.0, 0.52), Vec3(0, 0, 1), 2, true, true};
+const PictureSettings small{240, 160, Vec3(0.62, -1.0, 0.52), Vec3(0, 0, 1), 2, true, true, 0};
 
 /// Pixels that are clearly orange in columns [from, to).
 std::size_t warm_pixels(const Image& image, int from, int to) {
@@ -61,6 +61,23 @@ TEST(Picture, PanelsStandSideBySide) {
   const Image image = render_picture({{{grey}, "left", "", ""}, {{red}, "right", "", ""}}, small);
   EXPECT_EQ(warm_pixels(image, 0, 120), 0u);
   EXPECT_GT(warm_pixels(image, 120, 240), 2000u);
+}
+
+TEST(Picture, PanelsStandInRowsOfAContactSheet) {
+  PictureMesh red;
+  red.mesh = box({0, 0, 0}, {1, 1, 1});
+  red.face_kind.assign(12, FaceKind::fracture);
+  PictureMesh grey = red;
+  grey.face_kind.clear();
+  PictureSettings grid = small;
+  grid.columns = 2;
+  const Image image = render_picture({{{grey}, "", "", ""}, {{grey}, "", "", ""}, {{red}, "", "", ""}}, grid);
+  std::size_t below = 0;
+  for (int y = 80; y < 160; ++y)
+    for (int x = 0; x < 120; ++x)
+      below += image.pixel(x, y)[0] > image.pixel(x, y)[2] + 60;
+  EXPECT_GT(below, 1000u);
+  EXPECT_EQ(warm_pixels(image, 0, 240), below);  // nowhere else
 }
 
 TEST(Picture, SameBitsForEveryThreadCountAndSizeOfTheWorld) {

@@ -212,3 +212,28 @@ TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
     EXPECT_NE(refusal([&] { read_run(path); }).find("run.json"), std::string::npos) << text;
   }
 }
+
+TEST(RunFolder, ExaggeratedFramesShowTheOpenCrack) {
+  const ScratchFolder scratch;
+  RunFolder folder(scratch / "run");
+  FrameData data = frame_data();
+  folder.write_frame(1, data);
+  data.exaggeration = 1000;
+  data.stress.resize(12, Mat3::Identity());
+  folder.write_frame(2, data);
+  const VtuMesh plain = read_vtu(scratch / "run/frames/frame_0001.vtu"),
+                apart = read_vtu(scratch / "run/frames/frame_0002.vtu");
+  ASSERT_EQ(plain.mesh.node_count(), 8u + 9u);
+  ASSERT_EQ(apart.mesh.node_count(), 8u + 2 * 9u);
+  EXPECT_EQ(apart.mesh.triangle_count(), 12u + 2 * 8u);
+  EXPECT_NEAR(apart.mesh.positions[NodeId(0)].z(), -0.5 + 1000 * 1e-4, 1e-12);  // the body's displacement
+  EXPECT_NEAR(apart.mesh.positions[NodeId(8)].z(), 500 * 1e-5, 1e-12);  // half the opening to each side
+  EXPECT_NEAR(apart.mesh.positions[NodeId(17)].z(), -500 * 1e-5, 1e-12);
+  const std::vector<double>& part = find_field(apart.triangle_fields, "part")->values;
+  EXPECT_EQ(std::count(part.begin(), part.end(), 1.0), 8);
+  EXPECT_EQ(std::count(part.begin(), part.end(), 2.0), 8);
+  // the faces look at each other
+  EXPECT_NEAR((unit_normal(apart.mesh, TriId(12)) + unit_normal(apart.mesh, TriId(20))).norm(), 0, 1e-12);
+  EXPECT_EQ(find_field(apart.triangle_fields, "stress")->components, 6);
+  EXPECT_EQ(find_field(plain.triangle_fields, "stress"), nullptr);
+}

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "conchoid/core/error.hpp"
 #include "io/samples.hpp"
 
 using namespace conchoid;
@@ -96,6 +97,38 @@ TEST(Vtu, MeshAndFieldsComeBackBitForBit) {
   EXPECT_EQ(connectivity[4], mesh.corners[TriId(1)][1].value);
   EXPECT_EQ(offsets.back(), 36);
   EXPECT_EQ(array<std::uint8_t>(xml, "types"), std::vector<std::uint8_t>(12, 5));
+}
+
+TEST(Vtu, ReaderTakesBackWhatWasWritten) {
+  const ScratchFolder folder;
+  const TriMesh mesh = box({-0.5, -0.1, 1.0 / 3.0}, {0.5, 0.5, 0.7});
+  const std::vector<Vec3> u(8, Vec3(0.1, -1e-300, 1e300));
+  Mat3 stress;
+  stress << 1, 4, 6, 4, 2, 5, 6, 5, 3;
+  write_vtu(folder / "m.vtu", mesh, {vector_field("u", u)},
+            {tensor_field("stress", std::vector<Mat3>(12, stress))});
+  const VtuMesh back = read_vtu(folder / "m.vtu");
+  EXPECT_EQ(back.mesh.positions, mesh.positions);
+  EXPECT_EQ(back.mesh.corners, mesh.corners);
+  ASSERT_NE(find_field(back.node_fields, "u"), nullptr);
+  EXPECT_EQ(find_field(back.node_fields, "u")->values, vector_field("u", u).values);
+  ASSERT_EQ(back.triangle_fields.size(), 1u);
+  EXPECT_EQ(back.triangle_fields[0].components, 6);  // xx, yy, zz, xy, yz, xz
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_EQ(back.triangle_fields[0].values[6 + k], static_cast<double>(k + 1));
+  EXPECT_EQ(find_field(back.node_fields, "stress"), nullptr);
+}
+
+TEST(Vtu, DamagedFilesAreRefused) {
+  const ScratchFolder folder;
+  write_vtu(folder / "m.vtu", box({0, 0, 0}, {1, 1, 1}), {}, {});
+  const std::string whole = file_content(folder / "m.vtu");
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{40}, whole.size() / 3, whole.size() / 2, whole.size() - 60}) {
+    std::ofstream(folder / "cut.vtu", std::ios::binary) << whole.substr(0, length);
+    EXPECT_THROW(read_vtu(folder / "cut.vtu"), InputError) << length;
+  }
+  EXPECT_THROW(read_vtu(folder / "missing.vtu"), InputError);
 }
 
 TEST(Vtu, FieldOfWrongLengthIsOurBug) {

@@ -14,7 +14,7 @@ struct Color {
 
 /// The two materials of every picture and 3D file: the body's skin is light grey, what broke is warm.
 inline constexpr Color original_color{0.80f, 0.82f, 0.84f};
-inline constexpr Color fracture_color{0.87f, 0.44f, 0.22f};
+inline constexpr Color fracture_color{0.80f, 0.50f, 0.34f};
 inline constexpr Color color_of(FaceKind kind) {
   return kind == FaceKind::original ? original_color : fracture_color;
 }

@@ -23,7 +23,8 @@ openvdb::FloatGrid::Ptr level_set(const Fragment& fragment, const openvdb::math:
   for (const Vec3& x : fragment.mesh.positions) {
     const openvdb::Vec3d at = transform.worldToIndex(openvdb::Vec3d(x[0], x[1], x[2]));
     if (!(at.length() < 1e6))
-      throw ComputationError("level sets: the pieces are more than 10⁶ voxels long; make resolution.surface larger");
+      throw ComputationError(
+          "level sets: the pieces are more than 10⁶ voxels long; make resolution.surface larger");
     points.emplace_back(at);
   }
   for (const auto& c : fragment.mesh.corners)

@@ -7,6 +7,11 @@
 
 namespace conchoid {
 
+/// Columns [left, right) and rows [top, bottom) of an image.
+struct PixelArea {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
 /// Range of the colour map: over all panels whose legend has the same name.
 Vec2 value_range(const std::vector<PicturePanel>& panels, const std::string& name);
 
@@ -14,7 +19,8 @@ Vec2 value_range(const std::vector<PicturePanel>& panels, const std::string& nam
 /// @param size  height of the title's capital letters [pixel]
 Vec2 label_room(const PicturePanel& panel, double size);
 
-/// Title, caption and, where a mesh shows values, the legend, over the columns [x0, x0 + width) of the image.
-void draw_labels(Image& image, const PicturePanel& panel, int x0, int width, const Vec2& range, double size);
+/// Title, caption and, where a mesh shows values, the legend, over a part of the image.
+void draw_labels(Image& image, const PicturePanel& panel, const PixelArea& area, const Vec2& range,
+                 double size);
 
 }  // namespace conchoid

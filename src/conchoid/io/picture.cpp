@@ -327,21 +327,27 @@ Image render_picture(const std::vector<PicturePanel>& panels, const PictureSetti
   common.finish();
 
   const int count = static_cast<int>(panels.size());
-  const double size = std::clamp(settings.height / 45.0, 7.0, 40.0);  // cap height of titles [pixel]
+  const int columns = settings.columns > 0 ? std::min(settings.columns, count) : count;
+  const int rows = columns > 0 ? (count + columns - 1) / columns : 0;
+  const double height = static_cast<double>(settings.height) / std::max(rows, 1);
+  const double size =
+      std::clamp(height / (rows > 1 ? 30.0 : 45.0), 7.0, 40.0);  // cap height of titles [pixel]
   Vec2 margin(0.04, 0.04);
   for (const PicturePanel& panel : panels)
-    margin = margin.cwiseMax(label_room(panel, size) / settings.height);
+    margin = margin.cwiseMax(label_room(panel, size) / height);
   for (int p = 0; p < count; ++p) {
     const PicturePanel& panel = panels[static_cast<std::size_t>(p)];
-    const int x0 = settings.width * p / count, width = settings.width * (p + 1) / count - x0;
-    const double aspect = static_cast<double>(settings.width) / count / settings.height;
+    const int column = p % columns, row = p / columns;
+    const PixelArea area = {settings.width * column / columns, settings.height * row / rows,
+                            settings.width * (column + 1) / columns, settings.height * (row + 1) / rows};
+    const double aspect = static_cast<double>(settings.width) / columns / height;
     Extent own;
     own.add(panel);
     own.finish();
     const Vec2 range = value_range(panels, panel.value_name);
     View(panel, settings.same_view ? common : own, own, settings, aspect, margin, range)
-        .render(image, x0, 0, width, settings.height);
-    draw_labels(image, panel, x0, width, range, size);
+        .render(image, area.left, area.top, area.right - area.left, area.bottom - area.top);
+    draw_labels(image, panel, area, range, size);
   }
   return image;
 }

@@ -27,6 +27,7 @@ struct PicturePanel {
   std::string title;
   std::string caption;     ///< smaller, below
   std::string value_name;  ///< of the legend, e.g. "σ1 [MPa]"; panels with the same name share the range
+  bool legend = true;      ///< false: another panel of the picture shows it
 };
 
 struct PictureSettings {
@@ -37,6 +38,7 @@ struct PictureSettings {
       4;  ///< per pixel and direction: samples² rays into the scene, each with a few towards the light
   bool floor = true;      ///< the meshes stand on a floor that takes their shadow
   bool same_view = true;  ///< all panels through the same camera, so that sizes compare
+  int columns = 0;        ///< panels per row; 0: all in one
 };
 
 /// Ray-traced picture: light from above, ambient occlusion, skin grey, fracture warm, panels side by side.

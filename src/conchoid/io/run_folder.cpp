@@ -42,27 +42,96 @@ void remove_earlier_run(const fs::path& path) {
   }
 }
 
-/// Body and crack as one mesh: the crack's nodes and triangles follow the body's.
-TriMesh joined(const TriMesh& body, const TriMesh& crack) {
-  TriMesh out = body;
-  for (const Vec3& x : crack.positions)
-    out.positions.add(x);
-  for (auto corners : crack.corners) {
-    for (NodeId& c : corners)
-      c = NodeId(c.index() + body.node_count());
-    out.corners.add(corners);
+/// Body and crack as one mesh: the crack's nodes and triangles follow the body's; `part` is 0 on the body,
+/// 1 on the crack and, where it is shown as two faces, 2 on the one its normal points away from.
+class FrameMesh {
+ public:
+  explicit FrameMesh(const FrameData& data)
+      : data_(data), two_(data.exaggeration > 0 && !data.opening.empty()) {
+    check_lengths();
+    out_.mesh = data.body;
+    add_face(data.crack, false);
+    if (two_) add_face(data.crack, true);
+    add_node_fields();
+    add_triangle_fields();
+    if (data.exaggeration > 0) displace();
   }
-  return out;
-}
 
-/// A field given on one of the two parts: zero on the other, which lies `before` or `after` it.
-VtkField padded(const std::string& name, std::size_t before, const std::vector<Vec3>& values,
-                std::size_t after) {
-  std::vector<Vec3> all(before, Vec3::Zero());
-  all.insert(all.end(), values.begin(), values.end());
-  all.resize(all.size() + after, Vec3::Zero());
-  return vector_field(name, all);
-}
+  VtuMesh take() { return std::move(out_); }
+
+ private:
+  void check_lengths() const;
+
+  void add_face(const TriMesh& crack, bool turned) {
+    const std::size_t first = out_.mesh.node_count();
+    for (const Vec3& x : crack.positions)
+      out_.mesh.positions.add(x);
+    for (auto corners : crack.corners) {
+      for (NodeId& c : corners)
+        c = NodeId(c.index() + first);
+      if (turned) std::swap(corners[1], corners[2]);
+      out_.mesh.corners.add(corners);
+    }
+  }
+
+  /// Values on the body, then on the crack, once or twice; zero where a list is empty.
+  template <class T>
+  std::vector<T> joined(const std::vector<T>& body, std::size_t body_size, const std::vector<T>& crack,
+                        std::size_t crack_size, const T& zero) const {
+    std::vector<T> all = body;
+    all.resize(body_size, zero);
+    for (int face = 0; face < (two_ ? 2 : 1); ++face) {
+      all.insert(all.end(), crack.begin(), crack.end());
+      all.resize(body_size + static_cast<std::size_t>(face + 1) * crack_size, zero);
+    }
+    return all;
+  }
+
+  void add_node_fields() {
+    const std::size_t body = data_.body.node_count(), crack = data_.crack.node_count();
+    const Vec3 zero = Vec3::Zero();
+    displacement_ = joined<Vec3>(data_.displacement, body, {}, crack, zero);
+    if (two_)
+      for (std::size_t n = 0; n < crack; ++n) {
+        displacement_[body + n] = 0.5 * data_.opening[NodeId(n)];
+        displacement_[body + crack + n] = -0.5 * data_.opening[NodeId(n)];
+      }
+    if (!data_.displacement.empty() || two_)
+      out_.node_fields.push_back(vector_field("displacement", displacement_));
+    if (!data_.opening.empty())
+      out_.node_fields.push_back(vector_field("opening", joined<Vec3>({}, body, data_.opening, crack, zero)));
+    if (!data_.intensity.empty())
+      out_.node_fields.push_back(vector_field("K", joined<Vec3>({}, body, data_.intensity, crack, zero)));
+  }
+
+  void add_triangle_fields() {
+    const std::size_t body = data_.body.triangle_count(), crack = data_.crack.triangle_count();
+    const Vec3 zero = Vec3::Zero();
+    std::vector<double> part(body, 0.0);
+    part.resize(body + crack, 1.0);
+    if (two_) part.resize(body + 2 * crack, 2.0);
+    out_.triangle_fields.push_back(scalar_field("part", part));
+    if (!data_.traction.empty())
+      out_.triangle_fields.push_back(
+          vector_field("traction", joined<Vec3>(data_.traction, body, {}, crack, zero)));
+    if (!data_.principal_stress.empty())
+      out_.triangle_fields.push_back(
+          vector_field("principal_stress", joined<Vec3>(data_.principal_stress, body, {}, crack, zero)));
+    if (!data_.stress.empty())
+      out_.triangle_fields.push_back(
+          tensor_field("stress", joined<Mat3>(data_.stress, body, {}, crack, Mat3::Zero())));
+  }
+
+  void displace() {
+    for (std::size_t n = 0; n < out_.mesh.node_count(); ++n)
+      out_.mesh.positions[NodeId(n)] += data_.exaggeration * displacement_[n];
+  }
+
+  const FrameData& data_;
+  bool two_;
+  std::vector<Vec3> displacement_;
+  VtuMesh out_;
+};
 
 void check_length(const char* name, std::size_t length, std::size_t expected) {
   if (length != 0 && length != expected)
@@ -77,6 +146,16 @@ bool wrote_ply(const RunDocument& document) {
       return !names || names->find("ply") != std::string::npos;
     }
   return true;
+}
+
+void FrameMesh::check_lengths() const {
+  const std::size_t body_nodes = data_.body.node_count(), body_triangles = data_.body.triangle_count();
+  check_length("displacement", data_.displacement.size(), body_nodes);
+  check_length("traction", data_.traction.size(), body_triangles);
+  check_length("principal_stress", data_.principal_stress.size(), body_triangles);
+  check_length("stress", data_.stress.size(), body_triangles);
+  check_length("opening", data_.opening.size(), data_.crack.node_count());
+  check_length("intensity", data_.intensity.size(), data_.crack.node_count());
 }
 
 std::vector<PvdEntry> frames_present(const fs::path& path) {
@@ -118,30 +197,9 @@ RunFolder::RunFolder(const fs::path& path, Earlier earlier) : path_(path) {
 }
 
 void RunFolder::write_frame(int frame, const FrameData& data) {
-  const std::size_t body_nodes = data.body.node_count(), crack_nodes = data.crack.node_count();
-  const std::size_t body_triangles = data.body.triangle_count(),
-                    crack_triangles = data.crack.triangle_count();
-  check_length("displacement", data.displacement.size(), body_nodes);
-  check_length("traction", data.traction.size(), body_triangles);
-  check_length("principal_stress", data.principal_stress.size(), body_triangles);
-  check_length("opening", data.opening.size(), crack_nodes);
-  check_length("intensity", data.intensity.size(), crack_nodes);
-
-  std::vector<VtkField> node_fields, triangle_fields;
-  if (!data.displacement.empty())
-    node_fields.push_back(padded("displacement", 0, data.displacement, crack_nodes));
-  if (!data.opening.empty()) node_fields.push_back(padded("opening", body_nodes, data.opening, 0));
-  if (!data.intensity.empty()) node_fields.push_back(padded("K", body_nodes, data.intensity, 0));
-  std::vector<double> part(body_triangles, 0.0);
-  part.resize(body_triangles + crack_triangles, 1.0);
-  triangle_fields.push_back(scalar_field("part", part));
-  if (!data.traction.empty())
-    triangle_fields.push_back(padded("traction", 0, data.traction, crack_triangles));
-  if (!data.principal_stress.empty())
-    triangle_fields.push_back(padded("principal_stress", 0, data.principal_stress, crack_triangles));
-
   const std::string name = numbered("frames/frame_%04d.vtu", frame);
-  write_vtu(path_ / name, joined(data.body, data.crack), node_fields, triangle_fields);
+  const VtuMesh vtu = FrameMesh(data).take();
+  write_vtu(path_ / name, vtu.mesh, vtu.node_fields, vtu.triangle_fields);
   std::erase_if(frames_, [&](const PvdEntry& entry) { return entry.file == name; });
   frames_.push_back({data.time, name});
   write_pvd(path_ / "run.pvd", frames_);

@@ -17,9 +17,13 @@ struct FrameData {
   IdVector<NodeId, Vec3> displacement;     ///< per body node [m]
   IdVector<TriId, Vec3> traction;          ///< per body triangle [Pa]
   IdVector<TriId, Vec3> principal_stress;  ///< per body triangle, largest first [Pa]
+  IdVector<TriId, Mat3> stress;            ///< per body triangle [Pa]
   TriMesh crack;
   IdVector<NodeId, Vec3> opening;    ///< per crack node, world axes [m]
   IdVector<NodeId, Vec3> intensity;  ///< per crack node: K_I, K_II, K_III [Pa √m], zero off the front
+  /// Above 0, for display: the body's nodes are moved by so many times their displacement, and the crack
+  /// becomes two faces, moved apart by so many times the opening.
+  double exaggeration = 0;
 };
 
 /// A front node in a frame: one line of front.csv.

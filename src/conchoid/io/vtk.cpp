@@ -86,6 +86,14 @@ VtkField vector_field(std::string name, const std::vector<Vec3>& values) {
   return field;
 }
 
+VtkField tensor_field(std::string name, const std::vector<Mat3>& values) {
+  VtkField field{std::move(name), 6, {}};
+  field.values.reserve(6 * values.size());
+  for (const Mat3& m : values)
+    field.values.insert(field.values.end(), {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)});
+  return field;
+}
+
 void write_vtu(const std::filesystem::path& path, const TriMesh& mesh,
                const std::vector<VtkField>& node_fields, const std::vector<VtkField>& triangle_fields) {
   std::vector<std::int64_t> connectivity, offsets;

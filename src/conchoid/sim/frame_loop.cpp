@@ -222,9 +222,12 @@ void FrameLoop::write_frame(int frame, RunFolder& folder, const std::vector<Fron
     data.displacement = bem_.body().displacement();
     for (const Vec3& t : bem_.body().traction())
       data.traction.push_back(t);
-    for (const Mat3& s : bem_.body().surface_stress())
+    for (const Mat3& s : bem_.body().surface_stress()) {
+      data.stress.push_back(s);
       data.principal_stress.push_back(principal_stress(s).value);
+    }
   }
+  data.exaggeration = scene_.output.exaggeration;
   folder.write_frame(frame, data);
 }
 

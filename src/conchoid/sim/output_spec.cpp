@@ -19,6 +19,7 @@ OutputSpec read_output(const TomlTable& file) {
     output.texture_size = size;
   }
   table->read("crease_angle", output.crease_angle);
+  table->read("exaggeration", output.exaggeration);
   return output;
 }
 

@@ -16,6 +16,7 @@ struct OutputSpec {
   Projection projection = Projection::box;
   std::optional<double> texture_size;  ///< [m]; none: the body's size
   double crease_angle = 35;            ///< [°]
+  double exaggeration = 0;             ///< of displacement and opening in frames/, 0: as they are
   std::string where;
 };
 

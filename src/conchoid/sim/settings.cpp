@@ -365,6 +365,11 @@ const std::vector<Setting>& settings() {
        above(0)},
       {"output", "crease_angle", number, "°", "35.0",
        "normals are smooth over edges that bend less; never from original to fracture", between(0, 180)},
+      {"output", "exaggeration", number, "", "0.0",
+       "above 0, frames/ show the body moved by so many times its displacement and the crack as two faces "
+       "apart "
+       "by so many times the opening",
+       at_least(0)},
 
       {"database", "runs", integer, "runs", "300", "number of runs", between(1, 10000000)},
       {"database", "seed", integer, "", "1", "of the loads; run i is the same whatever the number of runs",
