@@ -139,13 +139,13 @@ struct Frame {
   TriMesh body, crack;
   std::vector<Vec3> opening;  ///< per crack node
 
-  /// A piece that has come off may be anywhere: its opening says nothing. It is beyond 2 % of what the frame
-  /// shows.
+  /// A piece that has come off may be anywhere: its opening says nothing. It is beyond a fifth of what the
+  /// frame shows.
   bool in_one_piece() const {
     double largest = 0;
     for (const Vec3& u : opening)
       largest = std::max(largest, u.norm());
-    return largest <= 0.02 * std::max(bounding_box(body).diagonal(), bounding_box(crack).diagonal());
+    return largest <= 0.2 * std::max(bounding_box(body).diagonal(), bounding_box(crack).diagonal());
   }
 };
 

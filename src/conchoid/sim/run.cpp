@@ -82,7 +82,8 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
                                   static_cast<std::size_t>(scene.run.max_fragments)};
   try {
     if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
-    if (result.document.stop == "separated" && fragments && result.fragments.size() < 2) {
+    if (result.document.stop == "separated" && fragments && settings.maximum_count != 1 &&
+        result.fragments.size() < 2) {
       sheets = run_on(std::move(sheets), kRunOut * setup.crack_edge);
       result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
     }
