@@ -33,6 +33,7 @@ void allow_one_command(CLI::App& parent);
 void print(const std::string& text);
 
 // One per file named after it.
+void add_check(CLI::App& program, Invocation& invocation);
 void add_compare(CLI::App& program, Invocation& invocation);
 void add_database(CLI::App& program, Invocation& invocation);
 void add_forest(CLI::App& program, Invocation& invocation);

@@ -51,6 +51,7 @@ int run_program(int argc, char** argv) {
   add_sif(program, invocation);
   add_stress(program, invocation);
   add_mesh(program, invocation);
+  add_check(program, invocation);
   add_compare(program, invocation);
   add_picture(program, invocation);
   add_database(program, invocation);

@@ -61,6 +61,7 @@ TEST(Help, EverySubCommandExplainsItself) {
                                                           {"sif"},
                                                           {"stress"},
                                                           {"mesh"},
+                                                          {"check"},
                                                           {"compare"},
                                                           {"picture"},
                                                           {"help-scene"},

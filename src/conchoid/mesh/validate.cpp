@@ -7,11 +7,11 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/self_intersection.hpp"
+#include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
 namespace {
 
-constexpr std::size_t most_of_a_kind = 100;
 constexpr double flattest_triangle = 1e-10;  // height over longest edge
 
 /// "triangle 4" …, for messages.
@@ -25,15 +25,18 @@ std::string numbers(const std::vector<IdType>& ids) {
 
 class Defects {
  public:
+  explicit Defects(std::size_t most_of_a_kind) : most_of_a_kind_(most_of_a_kind) {}
   void add(DefectKind kind, std::string what, std::string remedy, std::vector<TriId> triangles,
            std::vector<NodeId> nodes = {}) {
-    if (++counts_[kind] <= most_of_a_kind)
+    if (++counts_[kind] <= most_of_a_kind_)
       found_.push_back({kind, std::move(what), std::move(remedy), std::move(triangles), std::move(nodes)});
   }
+  std::size_t most_of_a_kind() const { return most_of_a_kind_; }
   bool none() const { return found_.empty(); }
   std::vector<MeshDefect> take() { return std::move(found_); }
 
  private:
+  std::size_t most_of_a_kind_;
   std::map<DefectKind, std::size_t> counts_;
   std::vector<MeshDefect> found_;
 };
@@ -197,7 +200,7 @@ void check_shapes(const TriMesh& mesh, Defects& defects) {
 }
 
 void check_intersections(const TriMesh& mesh, Defects& defects) {
-  for (const auto& [s, t] : self_intersections(mesh, most_of_a_kind))
+  for (const auto& [s, t] : self_intersections(mesh, defects.most_of_a_kind()))
     defects.add(DefectKind::self_intersection, "triangles " + numbers<TriId>({s, t}) + " intersect",
                 "repair the self-intersections, or remesh", {s, t});
 }
@@ -233,19 +236,6 @@ std::vector<TriMesh> components(const TriMesh& mesh, std::vector<TriId>& first_t
   return parts;
 }
 
-/// Whether a point is inside a closed, not intersecting surface, by its winding number (sum of solid angles
-/// over 4π).
-bool inside(const TriMesh& surface, const Vec3& x) {
-  double angle = 0;
-  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
-    const Triangle triangle = surface.triangle(TriId(t));
-    const Vec3 a = triangle[0] - x, b = triangle[1] - x, c = triangle[2] - x;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    angle += 2 * std::atan2(a.dot(cross(b, c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
-  return std::abs(angle) > 2 * 3.141592653589793;
-}
-
 /// Every component outside of all others, or inside an even number of them, must be oriented outward, a
 /// cavity inward.
 void check_orientation(const TriMesh& mesh, Defects& defects) {
@@ -263,7 +253,7 @@ void check_orientation(const TriMesh& mesh, Defects& defects) {
     }
     int depth = 0;
     for (std::size_t q = 0; q < parts.size(); ++q)
-      if (q != p && inside(parts[q], parts[p].positions.front())) ++depth;
+      if (q != p && std::abs(winding_number(parts[q], parts[p].positions.front())) > 0.5) ++depth;
     if ((volume > 0) != (depth % 2 == 0))
       defects.add(DefectKind::inside_out,
                   name + (depth % 2 == 0 ? " is oriented inward" : " is a cavity but is oriented outward"),
@@ -271,8 +261,8 @@ void check_orientation(const TriMesh& mesh, Defects& defects) {
   }
 }
 
-std::vector<MeshDefect> defects_of(const TriMesh& mesh, bool is_body) {
-  Defects defects;
+std::vector<MeshDefect> defects_of(const TriMesh& mesh, bool is_body, std::size_t most_of_a_kind) {
+  Defects defects(most_of_a_kind);
   check_corners(mesh, defects);
   if (!defects.none()) return defects.take();
   check_duplicates(mesh, defects);
@@ -293,19 +283,19 @@ void require_none(const std::vector<MeshDefect>& defects, const std::string& nam
     message += "\n  " + defects[i].what + "; " + defects[i].remedy;
   if (defects.size() > most_listed)
     message += "\n  and " + std::to_string(defects.size() - most_listed) +
-               (defects.size() >= most_of_a_kind ? " more or further" : " more") +
+               (defects.size() >= default_most_of_a_kind ? " more or further" : " more") +
                " defects (ids count from 0)";
   throw InputError(message);
 }
 
 }  // namespace
 
-std::vector<MeshDefect> find_defects(const TriMesh& mesh) {
-  return defects_of(mesh, true);
+std::vector<MeshDefect> find_defects(const TriMesh& mesh, std::size_t most_of_a_kind) {
+  return defects_of(mesh, true, most_of_a_kind);
 }
 
 std::vector<MeshDefect> find_sheet_defects(const TriMesh& sheet) {
-  return defects_of(sheet, false);
+  return defects_of(sheet, false, default_most_of_a_kind);
 }
 
 void require_valid_body(const TriMesh& mesh, const std::string& name) {

@@ -24,6 +24,8 @@ enum class DefectKind {
   empty               ///< there are no triangles
 };
 
+inline constexpr std::size_t default_most_of_a_kind = 100;
+
 /// One thing that is wrong with a mesh.
 struct MeshDefect {
   DefectKind kind;
@@ -35,9 +37,10 @@ struct MeshDefect {
 
 /// Everything that keeps a mesh from being the surface of a body: finite, closed, edge- and node-manifold,
 /// oriented outward (cavities inward), every component with a volume, no degenerate, duplicate or
-/// intersecting triangles. At most 100 of each kind; geometric checks are left out while the connectivity is
-/// broken. Intersections are decided exactly.
-std::vector<MeshDefect> find_defects(const TriMesh& mesh);
+/// intersecting triangles. At most `most_of_a_kind` of each kind; geometric checks are left out while the
+/// connectivity is broken. Intersections are decided exactly.
+std::vector<MeshDefect> find_defects(const TriMesh& mesh,
+                                     std::size_t most_of_a_kind = default_most_of_a_kind);
 
 /// Likewise for an open crack sheet: finite, manifold, consistently oriented, no degenerate, duplicate or
 /// intersecting triangles; boundary edges are allowed.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// What tidying a surface has changed.
+struct TidyReport {
+  std::size_t merged_nodes = 0;       ///< nodes with the same coordinates as another
+  std::size_t removed_triangles = 0;  ///< without area, or with the same nodes as another
+  std::size_t turned_triangles = 0;   ///< oriented anew
+  std::size_t removed_nodes = 0;      ///< without triangles
+};
+
+/// The surface without the defects that can be mended where they are, no point moved: nodes of equal
+/// coordinates become one, triangles without area or with the nodes of another are dropped, neighbours are
+/// oriented alike (as the larger part of their area is), bodies outward, cavities inward, unused nodes are
+/// dropped. What is left to do — holes, crowded edges, intersections — find_defects tells.
+TriMesh tidied(const TriMesh& mesh, TidyReport& report);
+
+}  // namespace conchoid
