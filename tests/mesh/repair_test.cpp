@@ -101,6 +101,16 @@ TEST(Examine, AHoleIsALoopWithLengthAndPlace) {
   EXPECT_FALSE(report.parts[0].closed);
 }
 
+TEST(Examine, FlippedTrianglesAreNoHoles) {
+  TriMesh mesh = cube_with_hole();
+  for (std::size_t t = 0; t < mesh.triangle_count(); t += 3)
+    std::swap(mesh.corners[TriId(t)][0], mesh.corners[TriId(t)][1]);
+  const SurfaceReport report = examine(mesh);
+  ASSERT_EQ(report.holes.size(), 1u);
+  EXPECT_EQ(report.holes[0].edges, 8u);
+  EXPECT_GT(report.defect_counts.at(DefectKind::inconsistent_edge), 100u);
+}
+
 TEST(Examine, IntersectionsAreCountedAndPlaced) {
   const SurfaceReport report = examine(overlapping_spheres());
   EXPECT_GT(report.intersections.size(), 50u);
@@ -257,6 +267,16 @@ TEST(Repair, TheSameBitsForEveryThreadCount) {
   const TriMesh all = repaired(overlapping_spheres(), 0.1).mesh;
   EXPECT_EQ(one.positions, all.positions);
   EXPECT_EQ(one.corners, all.corners);
+}
+
+TEST(Repair, ScalingByAPowerOfTwoChangesNoBit) {
+  TriMesh large = cube_with_hole();
+  for (Vec3& x : large.positions)
+    x *= 1024;
+  const TriMesh a = repaired(cube_with_hole(), 0.0625).mesh, b = repaired(large, 64).mesh;
+  ASSERT_EQ(a.corners, b.corners);
+  for (std::size_t n = 0; n < a.node_count(); ++n)
+    EXPECT_EQ(1024 * a.positions[NodeId(n)], b.positions[NodeId(n)]);
 }
 
 TEST(Repair, WhatCannotBeRepairedIsRefused) {

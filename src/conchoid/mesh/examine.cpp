@@ -45,9 +45,10 @@ void measure(const TriMesh& mesh, SurfaceReport& report) {
   report.mean_edge = sum / (3.0 * static_cast<double>(mesh.triangle_count()));
 }
 
-/// Edges with one triangle, and no others, as loops: the mesh without everything that is not on a hole has
-/// the same boundary there.
-std::vector<Hole> find_holes(const TriMesh& mesh) {
+/// Loops of edges with one triangle. Neighbours are oriented alike first: where they are not, an edge is left
+/// over that is no hole.
+std::vector<Hole> find_holes(TriMesh mesh) {
+  orient_neighbours_alike(mesh);
   std::vector<Hole> holes;
   std::map<Edge, int> triangles_at;
   for (const auto& c : mesh.corners)
@@ -136,7 +137,7 @@ SurfaceReport examine(const TriMesh& mesh) {
   report.unit = guess_unit((report.box.high - report.box.low).maxCoeff());
   report.parts = surface_parts(mesh);
   if (!report.usable()) {
-    find_holes(mesh).swap(report.holes);
+    report.holes = find_holes(mesh);
     find_intersections(mesh, report);
   }
   TidyReport changes;

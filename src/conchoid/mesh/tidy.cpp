@@ -105,6 +105,25 @@ IdVector<TriId, std::vector<Link>> links(const TriMesh& mesh) {
   return result;
 }
 
+std::size_t drop_unused_nodes(TriMesh& mesh) {
+  IdVector<NodeId, char> used(mesh.node_count());
+  for (const auto& c : mesh.corners)
+    for (NodeId n : c)
+      used[n] = 1;
+  IdVector<NodeId, NodeId> ids(mesh.node_count());
+  IdVector<NodeId, Vec3> positions;
+  for (std::size_t n = 0; n < used.size(); ++n)
+    if (used[NodeId(n)]) ids[NodeId(n)] = positions.add(mesh.positions[NodeId(n)]);
+  for (auto& c : mesh.corners)
+    for (NodeId& n : c)
+      n = ids[n];
+  const std::size_t removed = mesh.node_count() - positions.size();
+  mesh.positions = std::move(positions);
+  return removed;
+}
+
+}  // namespace
+
 void orient_neighbours_alike(TriMesh& mesh) {
   const auto neighbours = links(mesh);
   IdVector<TriId, char> seen(mesh.triangle_count()), turned(mesh.triangle_count());
@@ -128,25 +147,6 @@ void orient_neighbours_alike(TriMesh& mesh) {
       if ((turned[t] != 0) != turn_the_others) turn(mesh.corners[t]);
   }
 }
-
-std::size_t drop_unused_nodes(TriMesh& mesh) {
-  IdVector<NodeId, char> used(mesh.node_count());
-  for (const auto& c : mesh.corners)
-    for (NodeId n : c)
-      used[n] = 1;
-  IdVector<NodeId, NodeId> ids(mesh.node_count());
-  IdVector<NodeId, Vec3> positions;
-  for (std::size_t n = 0; n < used.size(); ++n)
-    if (used[NodeId(n)]) ids[NodeId(n)] = positions.add(mesh.positions[NodeId(n)]);
-  for (auto& c : mesh.corners)
-    for (NodeId& n : c)
-      n = ids[n];
-  const std::size_t removed = mesh.node_count() - positions.size();
-  mesh.positions = std::move(positions);
-  return removed;
-}
-
-}  // namespace
 
 TriMesh tidied(const TriMesh& mesh, TidyReport& report) {
   TriMesh out = mesh;

@@ -20,4 +20,8 @@ struct TidyReport {
 /// dropped. What is left to do — holes, crowded edges, intersections — find_defects tells.
 TriMesh tidied(const TriMesh& mesh, TidyReport& report);
 
+/// Orients neighbours across edges of two triangles alike, as the larger part of the area of each patch that
+/// such edges hold together is. Ids stay.
+void orient_neighbours_alike(TriMesh& mesh);
+
 }  // namespace conchoid
