@@ -66,6 +66,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
     throw InputError(command.database.empty()
                          ? "--method forest needs a forest: add --database FOREST"
                          : "--database goes with --method forest; add one or remove the other");
+  options.resume = command.resume;
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   const Scene scene = read_scene(command.scene);
   std::optional<RegressionForest> forest;
@@ -103,8 +104,9 @@ void add_run(CLI::App& program, Invocation& invocation) {
                    "files of the pieces, in place of the scene's output.formats, with commas between")
       ->delimiter(',')
       ->check(CLI::IsMember(fragment_format_names()));
-  command->add_flag("--resume", options->resume,
-                    "keep a finished run of the same scene in the folder; make an unfinished one again");
+  command->add_flag(
+      "--resume", options->resume,
+      "go on where a run of the same scene in the folder was stopped; report a finished one again");
   command->footer(settings_text(false));
 }
 

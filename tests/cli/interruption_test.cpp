@@ -1,53 +1,23 @@
 // What is left when the program is stopped from outside.
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
-#include <functional>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/program.hpp"
+#include "cli/signalled.hpp"
 
 using namespace conchoid::test;
 using nlohmann::json;
 
 namespace {
 
-using Milliseconds = std::chrono::milliseconds;
-
 const std::string kSpec =
     "[body]\nmodel = \"cube\"\n[material]\nyoungs_modulus = 3.1e9\npoisson_ratio = 0.327\n"
     "[resolution]\ncrack = 0.2\nsurface = 0.1\n"
     "[database]\nregions = [\"z+\", \"z-\"]\nmagnitude = [8e7, 1e8]\nslope = [0, 30]\nruns = 6\n";
-
-/// Starts the program in a folder, waits until `ready` says so (at most a minute), then sends it a signal.
-/// Returns its exit status, or 128 + the signal that ended it.
-int run_and_signal(const std::vector<std::string>& arguments, const TemporaryFolder& folder,
-                   const std::function<bool()>& ready, int signal) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    std::vector<char*> argv = {const_cast<char*>(CONCHOID_BINARY)};
-    for (const std::string& argument : arguments)
-      argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    const int nowhere = ::open("/dev/null", O_RDWR);
-    ::dup2(nowhere, STDOUT_FILENO);
-    ::dup2(nowhere, STDERR_FILENO);
-    if (::chdir(folder.path().c_str()) == 0) ::execv(CONCHOID_BINARY, argv.data());
-    ::_exit(127);
-  }
-  for (int wait = 0; wait < 6000 && !ready(); ++wait)
-    std::this_thread::sleep_for(Milliseconds(10));
-  ::kill(child, signal);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 
 const std::vector<std::string> kGenerate = {"database", "generate", "spec.toml",
                                             "--out",    "cube.h5",  "--resume"};

@@ -183,15 +183,18 @@ TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
   EXPECT_NE(refusal([&] { RunFolder(scratch / "file/below"); }).find("cannot be written"), std::string::npos);
 }
 
-TEST(RunFolder, ContinuingKeepsTheFrames) {
+TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
   const ScratchFolder scratch;
-  write_whole_run(scratch / "run");
-  RunFolder again(scratch / "run", RunFolder::Earlier::keep);
-  again.write_frame(3, frame_data());
-  const std::string pvd = file_content(scratch / "run/run.pvd");
-  for (const char* name : {"frame_0001", "frame_0002", "frame_0003"})
-    EXPECT_NE(pvd.find(name), std::string::npos);
-  EXPECT_FALSE(fs::exists(scratch / "run/run.json"));
+  const fs::path run = scratch / "run";
+  fs::create_directories(run);
+  std::ofstream(run / "run.pvd.tmp-1-0") << "half";
+  { RunFolder first(run); }
+  std::ofstream(run / "crack.ply.tmp-1-7") << "half";
+  std::ofstream(run / "frames/frame_0003.vtu.tmp-1-8") << "half";
+  RunFolder again(run);
+  EXPECT_FALSE(fs::exists(run / "crack.ply.tmp-1-7"));
+  EXPECT_TRUE(fs::is_empty(run / "frames"));
+  EXPECT_EQ(file_content(run / "run.pvd").find("frame_"), std::string::npos);
 }
 
 TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {

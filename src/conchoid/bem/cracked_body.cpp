@@ -6,8 +6,8 @@
 
 #include "conchoid/bem/bordered_cholesky.hpp"
 #include "conchoid/bem/contact.hpp"
-#include "conchoid/bem/cut_rows.hpp"
 #include "conchoid/bem/rigid_body.hpp"
+#include "conchoid/bem/row_store.hpp"
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
 
@@ -53,6 +53,7 @@ struct CrackedBody::State {
   ElasticConstants m;
   AmbientField ambient;
   BemSettings settings;
+  RowStore* store = nullptr;
   PairIntegrator integrator;
   BodyBlocks body;
   BorderedCholesky V;         // of the single layer
@@ -178,7 +179,7 @@ void CrackedBody::State::replace_members() {
           now_among(3 * i + p, 3 * j + q) = among(3 * old_position[i] + p, 3 * old_position[j] + q);
   }
   const CutProblem problem{surface, data, m, ambient, body, integrator};
-  std::vector<CutRows> rows = assemble_cut_rows(problem, space, wanted);
+  std::vector<CutRows> rows = stored_cut_rows(problem, space, wanted, store);
   for (std::size_t w = 0; w < wanted.size(); ++w) {
     const CutFunction& f = space.functions[wanted[w]];
     Member member{f.kind, f.node,       f.key, std::move(rows[w].D_body), std::move(rows[w].K),
@@ -242,6 +243,10 @@ CrackedBody::CrackedBody(TriMesh surface, BoundaryData data, const ElasticConsta
 CrackedBody::~CrackedBody() = default;
 CrackedBody::CrackedBody(CrackedBody&&) noexcept = default;
 CrackedBody& CrackedBody::operator=(CrackedBody&&) noexcept = default;
+
+void CrackedBody::keep_rows(RowStore* store) {
+  state_->store = store;
+}
 
 void CrackedBody::set_crack(const CutComplex& cut) {
   state_->cut_nodes = cut.positions.size();

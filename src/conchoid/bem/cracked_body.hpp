@@ -10,6 +10,8 @@
 
 namespace conchoid {
 
+class RowStore;
+
 struct BemSettings {
   double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
@@ -43,6 +45,9 @@ class CrackedBody {
   CrackedBody(CrackedBody&&) noexcept;
   CrackedBody& operator=(CrackedBody&&) noexcept;
 
+  /// Where the rows of set_crack() are looked for before they are integrated, and kept after; must outlive
+  /// the body. None at first.
+  void keep_rows(RowStore* store);
   /// Replaces the crack. Errors: ComputationError when a piece has come off (the system has become singular).
   void set_crack(const CutComplex& cut);
   void solve();

@@ -112,6 +112,7 @@ RunDocument document_from(const Json& json) {
   RunDocument d;
   d.method = json.at("method").get<std::string>();
   d.frames = json.at("frames").get<int>();
+  d.resumed_after = json.value("resumed_after", 0);
   d.stop = json.at("stop").get<std::string>();
   d.initial_triangles = json.at("triangles").at("initial").get<std::size_t>();
   d.final_triangles = json.at("triangles").at("final").get<std::size_t>();
@@ -167,6 +168,7 @@ std::string run_json(const RunDocument& d, RunJson extent) {
   }
   out["method"] = d.method;
   out["frames"] = d.frames;
+  if (d.resumed_after > 0) out["resumed_after"] = d.resumed_after;
   out["stop"] = d.stop;
   out["triangles"] = {{"initial", d.initial_triangles}, {"final", d.final_triangles}};
   out["seconds"] = {{"total", d.total_seconds},

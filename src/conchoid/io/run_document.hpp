@@ -46,6 +46,7 @@ struct RunDocument {
   std::string method;  ///< "bem", "forest", "steady", "stress", "hybrid"
   std::string stop;    ///< "arrested", "separated", "frame-limit", …
   int frames = 0;
+  int resumed_after = 0;  ///< complete frames that were found; the times are those of the run that went on
   std::size_t initial_triangles = 0, final_triangles = 0;
   double total_seconds = 0, opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
   double opening_seconds_per_frame = 0;

@@ -1,5 +1,6 @@
 #include "conchoid/io/run_folder.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -26,20 +27,37 @@ std::string numbered(const char* pattern, int number) {
   throw InputError(path.string() + ": " + why);
 }
 
+/// Whether a file of a run folder is this one, or what is left of it where the program was killed.
+bool is_or_was_to_be(const fs::path& file, const std::string& name) {
+  const std::string found = file.filename().string();
+  return found == name || found.starts_with(name + ".tmp-");
+}
+
+bool holds_run(const fs::path& path) {
+  const fs::directory_iterator entries(path);
+  return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    return is_or_was_to_be(entry.path(), "run.json") || is_or_was_to_be(entry.path(), "run.pvd");
+  });
+}
+
 /// Deletes what an earlier run wrote, run.json first so that a half emptied folder is not taken for a
-/// finished run.
+/// finished run. run.pvd stays: by it the folder is known.
 void remove_earlier_run(const fs::path& path) {
-  for (const char* name :
-       {"run.json", "run.pvd", "front.csv", "crack.ply", "fragments.glb", "fragments.vdb", "hulls.obj"})
-    fs::remove(path / name);
+  fs::remove(path / "run.json");
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.path().filename().string().starts_with("run.pvd.tmp-")) old.push_back(entry.path());
+    for (const char* name :
+         {"run.json", "front.csv", "crack.ply", "fragments.glb", "fragments.vdb", "hulls.obj"})
+      if (is_or_was_to_be(entry.path(), name)) old.push_back(entry.path());
+  }
   for (const auto& [folder, prefix] : {std::pair("frames", "frame_"), std::pair("fragments", "fragment_")}) {
     if (!fs::is_directory(path / folder)) continue;
-    std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(path / folder))
-      if (entry.path().filename().string().rfind(prefix, 0) == 0) files.push_back(entry.path());
-    for (const fs::path& file : files)
-      fs::remove(file);
+      if (entry.path().filename().string().starts_with(prefix)) old.push_back(entry.path());
   }
+  for (const fs::path& file : old)
+    fs::remove(file);
 }
 
 /// Body and crack as one mesh: the crack's nodes and triangles follow the body's; `part` is 0 on the body,
@@ -158,42 +176,24 @@ void FrameMesh::check_lengths() const {
   check_length("intensity", data_.intensity.size(), data_.crack.node_count());
 }
 
-std::vector<PvdEntry> frames_present(const fs::path& path) {
-  std::vector<PvdEntry> entries;
-  for (int frame = 0; frame < 100000; ++frame) {
-    const std::string name = numbered("frames/frame_%04d.vtu", frame);
-    if (fs::exists(path / name)) {
-      entries.push_back({static_cast<double>(frame), name});
-    } else if (frame > 0) {
-      break;
-    }
-  }
-  return entries;
-}
-
 }  // namespace
 
-RunFolder::RunFolder(const fs::path& path, Earlier earlier) : path_(path) {
+RunFolder::RunFolder(const fs::path& path) : path_(path) {
   try {
     if (fs::exists(path) && !fs::is_directory(path))
       refuse_folder(path, "is a file, not a folder; give another name with --out");
-    const bool ours = fs::exists(path / "run.json") || fs::exists(path / "run.pvd");
-    if (fs::exists(path) && !fs::is_empty(path) && !ours)
+    if (fs::exists(path) && !fs::is_empty(path) && !holds_run(path))
       refuse_folder(path,
                     "holds files that are not a run's (no run.json, no run.pvd); give an empty or a new "
                     "folder with --out");
+    fs::create_directories(path);
+    remove_earlier_run(path);
+    write_pvd(path_ / "run.pvd", frames_);
     fs::create_directories(path / "frames");
-    if (earlier == Earlier::replace) {
-      remove_earlier_run(path);
-    } else {
-      fs::remove(path / "run.json");
-      frames_ = frames_present(path);
-    }
   } catch (const fs::filesystem_error& error) {
     refuse_folder(path, "cannot be written (" + error.code().message() +
                             "); check the permissions or give another folder with --out");
   }
-  write_pvd(path_ / "run.pvd", frames_);
 }
 
 void RunFolder::write_frame(int frame, const FrameData& data) {

@@ -48,11 +48,9 @@ std::vector<FrontRow> read_front_csv(const std::filesystem::path& path);
 /// run.
 class RunFolder {
  public:
-  enum class Earlier { replace, keep };
   /// Creates the folder if need be. One that holds an earlier run (run.json or run.pvd) is emptied of that
-  /// run's files, or continued (`keep`); any other folder with something in it, and one that cannot be
-  /// written, is an InputError.
-  explicit RunFolder(const std::filesystem::path& path, Earlier earlier = Earlier::replace);
+  /// run's files; any other folder with something in it, and one that cannot be written, is an InputError.
+  explicit RunFolder(const std::filesystem::path& path);
 
   void write_frame(int frame, const FrameData& data);
   void write_front_csv(const std::vector<FrontRow>& rows);

@@ -294,12 +294,13 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   return !moved && !new_crack ? "arrested" : "frame-limit";
 }
 
-void FrameLoop::run(RunResult& result, RunFolder* folder) {
+void FrameLoop::run(RunResult& result, RunFolder* folder, Checkpoint* checkpoint) {
   RunDocument& doc = result.document;
   const int limit = options_.frames.value_or(scene_.run.frames);
   result.cracks = static_cast<int>(setup_.cracks.size());
   std::optional<Progress> progress;
   if (options_.progress) progress.emplace("frames", static_cast<std::size_t>(limit));
+  bem_.keep_rows(checkpoint);
   Clock clock;
   if (result.cracks == 0 && scene_.run.max_cracks > 0) {
     bem_.solve(crack_.cut);
@@ -310,12 +311,15 @@ void FrameLoop::run(RunResult& result, RunFolder* folder) {
   if (crack_.sheet.fronts.empty()) return;
   update_crack(crack_, setup_.surface, setup_.crack_edge);
   for (int frame = 1; frame <= limit && doc.stop == "frame-limit"; ++frame) {
-    if (interrupted())
+    if (interrupted()) {
       doc.stop = "interrupted";
-    else if (!setup_.infinite() && separates(crack_.cut))
+    } else if (!setup_.infinite() && separates(crack_.cut)) {
       doc.stop = "separated";
-    else
+    } else {
+      if (checkpoint) checkpoint->begin(frame);
       doc.stop = guarded_frame(frame, result, folder);
+      if (checkpoint) checkpoint->finish(frame);
+    }
     if (progress) progress->advance();
   }
   if (doc.stop == "frame-limit" && !setup_.infinite() && separates(crack_.cut)) doc.stop = "separated";

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "conchoid/crack/fine_front.hpp"
+#include "conchoid/sim/checkpoint.hpp"
 #include "conchoid/sim/opening_source.hpp"
 #include "conchoid/sim/run.hpp"
 
@@ -14,7 +15,8 @@ class FrameLoop {
   FrameLoop(const Scene& scene, const RunOptions& options);
 
   /// Computes frames until something stops it; fills document.stop, frames and timings, front, samples.
-  void run(RunResult& result, RunFolder* folder);
+  /// @param folder, checkpoint  may be null: nothing is written
+  void run(RunResult& result, RunFolder* folder, Checkpoint* checkpoint);
 
   const BodySetup& setup() const { return setup_; }
   const CrackState& crack() const { return crack_; }

@@ -41,6 +41,8 @@ class BemOpening : public OpeningSource {
   std::vector<FrontOpening> open(const CrackState& crack) override;
   /// The body as it was last solved.
   const CrackedBody& body() const { return body_; }
+  /// Where the rows of the cracks are kept (bem/row_store.hpp); must outlive the source.
+  void keep_rows(RowStore* store) { body_.keep_rows(store); }
   /// Solves without asking for SIFs (no crack yet).
   void solve(const CutComplex& cut);
 

@@ -12,6 +12,7 @@
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/manifold_part.hpp"
 #include "conchoid/sim/frame_loop.hpp"
+#include "conchoid/sim/run_identity.hpp"
 
 namespace conchoid {
 namespace {
@@ -111,15 +112,10 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
 
 std::string result_hash(const RunResult& result) {
   ContentHash hash;
-  const auto add = [&](const TriMesh& mesh) {
-    hash.add(std::span<const Vec3>(mesh.positions));
-    for (const auto& c : mesh.corners)
-      hash.add(std::array{c[0].value, c[1].value, c[2].value});
-  };
   hash.add(result.document.stop);
-  add(result.crack);
+  add_mesh(hash, result.crack);
   for (const Fragment& f : result.fragments)
-    add(f.mesh);
+    add_mesh(hash, f.mesh);
   for (const FrontRow& row : result.front) {
     hash.add(row.position.x());
     hash.add(std::array{row.intensity[0], row.intensity[1], row.intensity[2]});
@@ -150,6 +146,29 @@ void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& optio
   doc.body_volume = enclosed_volume(setup.detailed);
 }
 
+// Where a run is written.
+struct Places {
+  std::optional<RunFolder> folder;
+  std::optional<Checkpoint> checkpoint;
+};
+
+// A checkpoint is read before anything in the folder is touched.
+Places open_places(const Scene& scene, const BodySetup& setup, const RunOptions& options) {
+  Places places;
+  if (!options.folder) return places;
+  const std::string identity = run_identity(scene, setup, options);
+  if (options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::keep);
+  places.folder.emplace(*options.folder);
+  if (!options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::remove);
+  if (places.checkpoint->frames() > 0)
+    message(fmt::format("{}: goes on after frame {}", options.folder->string(), places.checkpoint->frames()));
+  return places;
+}
+
+bool may_go_on(const RunDocument& document) {
+  return document.stop == "frame-limit" || document.stop == "interrupted";
+}
+
 void write_results(const RunResult& result, const FragmentFormats& formats, double voxel, RunFolder& folder) {
   folder.write_front_csv(result.front);
   folder.write_crack(result.crack);
@@ -178,23 +197,25 @@ RunResult run_scene(const Scene& scene, const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   RunResult result;
   RunDocument& doc = result.document;
-  std::optional<RunFolder> folder;
   FrameLoop loop(scene, options);
-  if (options.folder) folder.emplace(*options.folder);
+  Places places = open_places(scene, loop.setup(), options);
+  if (places.checkpoint) doc.resumed_after = places.checkpoint->frames();
   describe(scene, loop, options, doc);
   const std::size_t body_triangles = loop.setup().surface.triangle_count();
   std::size_t crack_triangles = 0;
   for (const TriMesh& crack : loop.setup().cracks)
     crack_triangles += crack.triangle_count();
   doc.initial_triangles = body_triangles + crack_triangles;
-  loop.run(result, folder ? &*folder : nullptr);
+  loop.run(result, places.folder ? &*places.folder : nullptr,
+           places.checkpoint ? &*places.checkpoint : nullptr);
   doc.final_triangles = body_triangles + loop.crack_triangles();
   cut_body(scene, loop, options.fragments, result);
   doc.hash = result_hash(result);
   doc.total_seconds = seconds_since(start);
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (folder) write_results(result, formats, loop.setup().surface_edge, *folder);
+  if (places.folder) write_results(result, formats, loop.setup().surface_edge, *places.folder);
+  if (places.checkpoint && !may_go_on(doc)) places.checkpoint->remove();
   return result;
 }
 

@@ -26,8 +26,9 @@ struct RunOptions {
   std::optional<int> frames;                        ///< in place of the scene's
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
-  bool fragments = true;                            ///< cut the body at the end
-  bool progress = true;                             ///< a line on the terminal
+  bool resume = false;    ///< go on after the last complete frame of the folder, if any
+  bool fragments = true;  ///< cut the body at the end
+  bool progress = true;   ///< a line on the terminal
 };
 
 /// What a run gives, in the scene's coordinates.
@@ -46,7 +47,8 @@ struct RunResult {
 /// "separated", "frame-limit", "intact" (nothing cracked) "singular" (a later frame could not be solved,
 /// mostly because a piece hangs by a ligament too thin to resolve: what was computed is kept and a warning
 /// says so) or "interrupted" (Ctrl-C: what was computed is kept and written). Same scene, same bits: for
-/// every number of threads, with a folder or without.
+/// every number of threads, with a folder or without, stopped and resumed or not. Throws InputError when what
+/// is to be resumed belongs to another scene, method or version.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 }  // namespace conchoid

@@ -1,0 +1,44 @@
+#include "conchoid/bem/row_store.hpp"
+
+#include <cstdint>
+
+#include "conchoid/core/hash.hpp"
+
+namespace conchoid {
+namespace {
+
+std::string name_of(const CutSpace& space, const std::vector<std::size_t>& wanted) {
+  ContentHash hash;
+  for (const CutFunction& f : space.functions)
+    hash.add(std::span<const double>(f.key));
+  for (std::size_t w : wanted)
+    hash.add(static_cast<std::uint64_t>(w));
+  return hash.hex();
+}
+
+bool fits(const std::vector<CutRows>& rows, const CutProblem& problem, const CutSpace& space,
+          std::size_t wanted) {
+  if (rows.size() != wanted) return false;
+  const Unknowns& unknowns = problem.body.unknowns;
+  for (const CutRows& r : rows)
+    if (r.D_body.rows != 3 || r.D_body.columns != 3 * unknowns.displacement_count || r.D_cut.rows != 3 ||
+        r.D_cut.columns != 3 * space.functions.size() || r.K.rows != 3 * unknowns.traction_count ||
+        r.K.columns != 3)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<CutRows> stored_cut_rows(const CutProblem& problem, const CutSpace& space,
+                                     const std::vector<std::size_t>& wanted, RowStore* store) {
+  if (!store || wanted.empty()) return assemble_cut_rows(problem, space, wanted);
+  const std::string name = name_of(space, wanted);
+  if (auto known = store->recall(name); known && fits(*known, problem, space, wanted.size()))
+    return std::move(*known);
+  std::vector<CutRows> rows = assemble_cut_rows(problem, space, wanted);
+  store->keep(name, rows);
+  return rows;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "conchoid/bem/row_store.hpp"
+
+namespace conchoid {
+
+/// What a run leaves behind with every frame, so that it can go on where it was stopped: the rows that the
+/// frame's cut functions added to the system, one file resume/frame_0001.rows … per frame, each whole or not
+/// there. Integrating these rows is what takes the time; a run that goes on computes everything else again
+/// and comes to the same bits.
+class Checkpoint : public RowStore {
+ public:
+  enum class Earlier { remove, keep };
+  /// @param folder    of the run; nothing is written before the first finish()
+  /// @param identity  hash of everything the rows depend on: scene, meshes, method, program
+  /// @param earlier   what becomes of frames that are there already. `keep` reads them all; throws InputError
+  ///                  for a file that is not a checkpoint's, is cut short or damaged, or has another identity
+  Checkpoint(std::filesystem::path folder, std::string identity, Earlier earlier);
+
+  /// Frames that were complete when this run began.
+  int frames() const { return frames_; }
+  /// Rows that follow belong to this frame.
+  void begin(int frame);
+  /// The frame is complete. Throws ComputationError on a full disk.
+  void finish(int frame);
+  /// Removes all of it: the run has ended by itself.
+  void remove();
+
+  std::optional<std::vector<CutRows>> recall(const std::string& name) override;
+  void keep(const std::string& name, const std::vector<CutRows>& rows) override;
+
+ private:
+  struct Record {
+    std::string name;
+    std::vector<CutRows> rows;
+  };
+  std::filesystem::path file(int frame) const;
+  std::vector<Record> read(int frame) const;
+  void remove_from(int frame);
+
+  std::filesystem::path folder_;
+  std::string identity_;
+  int frames_ = 0;
+  std::vector<Record> records_;  // of the frame that was begun
+  std::size_t next_ = 0;         // of these, to be recalled
+};
+
+}  // namespace conchoid
