@@ -33,7 +33,7 @@ RunData broken_run() {
   return run;
 }
 
-void write_frames(const std::filesystem::path& path) {
+RunFolder write_frames(const std::filesystem::path& path) {
   RunFolder folder(path);
   for (int frame = 1; frame <= 5; ++frame) {
     FrameData data;
@@ -42,6 +42,7 @@ void write_frames(const std::filesystem::path& path) {
     data.opening.resize(data.crack.node_count(), Vec3(0, 0, 1e-6 * frame));
     folder.write_frame(frame, data);
   }
+  return folder;
 }
 
 }  // namespace
@@ -96,8 +97,7 @@ TEST(RunPictures, ContactSheetEndsWithTheLastFrame) {
 
 TEST(RunPictures, APieceThatHasComeOffHasNoOpening) {
   const ScratchFolder scratch;
-  write_frames(scratch / "run");
-  RunFolder folder(scratch / "run", RunFolder::Earlier::keep);
+  RunFolder folder = write_frames(scratch / "run");
   FrameData data;
   data.body = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   data.crack = sheet(4, 0);
