@@ -38,6 +38,7 @@ void add_compare(CLI::App& program, Invocation& invocation);
 void add_database(CLI::App& program, Invocation& invocation);
 void add_forest(CLI::App& program, Invocation& invocation);
 void add_help_scene(CLI::App& program, Invocation& invocation);
+void add_materials(CLI::App& program, Invocation& invocation);
 void add_mesh(CLI::App& program, Invocation& invocation);
 void add_picture(CLI::App& program, Invocation& invocation);
 void add_run(CLI::App& program, Invocation& invocation);

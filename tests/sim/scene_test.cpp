@@ -88,6 +88,9 @@ const BrokenScene kBroken[] = {
     {"poisson_too_low",
      "[material]\nyoungs_modulus = 1\npoisson_ratio = -1\n[body]\nmodel = \"cube\"\n",
      {"scene.toml:3", "> -1"}},
+    {"unknown_material",
+     "[body]\nmodel = \"cube\"\n[material]\nname = \"marbel\"\n",
+     {"scene.toml:4", "did you mean \"marble\"?"}},
     {"negative_toughness", kCube + "toughness = -1.0\n", {"scene.toml:6", "> 0 Pa√m"}},
     {"compressive_factor", kCube + "compressive_factor = 0.5\n", {"scene.toml:6", "≥ 1"}},
     {"field_kind",
@@ -221,6 +224,15 @@ TEST_P(BrokenSceneTest, NamesPlaceAndRemedy) {
 }
 INSTANTIATE_TEST_SUITE_P(All, BrokenSceneTest, testing::ValuesIn(kBroken),
                          [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Scene, ANamedMaterialGivesWhatIsNotWritten) {
+  const Scene scene = parse("[body]\nmodel = \"cube\"\n[material]\nname = \"ice\"\nstrength = 2e6\n");
+  EXPECT_EQ(scene.material.youngs_modulus, 9.3e9);
+  EXPECT_EQ(scene.material.poisson_ratio, 0.325);
+  EXPECT_EQ(scene.material.density, 917);
+  EXPECT_EQ(scene.material.toughness, 1e5);
+  EXPECT_EQ(scene.material.strength, 2e6);
+}
 
 TEST(Scene, MaterialFieldsAreReadWithTheirPlaces) {
   const Scene scene =

@@ -40,6 +40,8 @@ std::vector<FrontOpening> BemOpening::open(const CrackState& crack) {
       o.node_intensity = stress_intensity(
           {o.opening.dot(point.frame.e1), o.opening.dot(point.frame.e2), o.opening.dot(point.frame.e3)},
           point.distance, m_, sif_.convention);
+      // The last ligaments at corners are too small to fit anything: the one opening there is has to do.
+      if (o.intensity.isZero(0)) o.intensity = o.node_intensity;
     }
     out.push_back(o);
   }

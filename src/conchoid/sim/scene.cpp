@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/material/library.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/scene_parser.hpp"
 #include "conchoid/sim/settings.hpp"
@@ -60,11 +61,23 @@ BodySpec read_body(const TomlTable& file, const fs::path& folder) {
 
 MaterialSpec read_material(const TomlTable& file, const fs::path& folder) {
   const auto table = file.table("material");
-  if (!table) file.fail({}, "there is no [material]; add it, with youngs_modulus and poisson_ratio");
+  if (!table)
+    file.fail({}, "there is no [material]; add it, with a name, or youngs_modulus and poisson_ratio");
   table->require_known_keys();
   MaterialSpec m;
-  table->require("youngs_modulus", m.youngs_modulus);
-  table->require("poisson_ratio", m.poisson_ratio);
+  table->read("name", m.name);
+  if (const NamedMaterial* named = find_material(m.name)) {
+    m.youngs_modulus = named->youngs_modulus;
+    m.poisson_ratio = named->poisson_ratio;
+    m.density = named->density;
+    m.strength = named->strength;
+    m.toughness = named->toughness;
+    table->read("youngs_modulus", m.youngs_modulus);
+    table->read("poisson_ratio", m.poisson_ratio);
+  } else {
+    table->require("youngs_modulus", m.youngs_modulus);
+    table->require("poisson_ratio", m.poisson_ratio);
+  }
   table->read("density", m.density);
   table->read("strength", m.strength);
   table->read("toughness", m.toughness);

@@ -30,6 +30,7 @@ struct BodySpec {
 };
 
 struct MaterialSpec {
+  std::string name;  ///< of the library (material/library.hpp); empty: none
   double youngs_modulus = 0;                                 ///< E [Pa]
   double poisson_ratio = 0;                                  ///< ν
   double density = 1200;                                     ///< [kg/m³]

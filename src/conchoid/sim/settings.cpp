@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "conchoid/material/library.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -61,6 +63,13 @@ std::string value_text(const Setting& s) {
 
 std::string heading(const SettingTable& table) {
   return fmt::format(fmt::runtime(table.repeated ? "[[{}]]" : "[{}]"), table.name);
+}
+
+std::vector<std::string_view> names_of(const std::vector<NamedMaterial>& materials) {
+  std::vector<std::string_view> names;
+  for (const NamedMaterial& m : materials)
+    names.push_back(m.name);
+  return names;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -141,13 +150,24 @@ const std::vector<Setting>& settings() {
       {"body", "scale", number, "", "1.0",
        "factor on the body's coordinates; everything else in the scene stays as written", above(0)},
 
-      {"material", "youngs_modulus", number, "Pa", "", "Young's modulus E; required", above(0)},
+      {"material",
+       "name",
+       text,
+       "",
+       "",
+       "a material of the library (docs/materials.md, conchoid materials): gives the first five constants "
+       "below; those written beside it count instead",
+       {},
+       0,
+       names_of(named_materials())},
+      {"material", "youngs_modulus", number, "Pa", "", "Young's modulus E; required without a name",
+       above(0)},
       {"material",
        "poisson_ratio",
        number,
        "",
        "",
-       "Poisson's ratio ν; required",
+       "Poisson's ratio ν; required without a name",
        {.low = -1, .high = 0.5, .low_included = false, .high_included = false}},
       {"material", "density", number, "kg/m³", "1200.0", "mass density ρ", above(0)},
       {"material", "strength", number, "Pa", "7.6e7",
