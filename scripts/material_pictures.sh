@@ -9,4 +9,4 @@ trap 'rm -rf "$out"' EXIT
 for kind in layers grains noise; do
   "$conchoid" run "examples/$kind.toml" --quiet --out "$out/$kind"
 done
-"$conchoid" picture "$out/layers" "$out/grains" "$out/noise" --explode 1.2 --width 2100 --height 1000 --out docs/images/materials.png
+"$conchoid" picture "$out/layers" "$out/grains" "$out/noise" --plain --explode 1.2 --width 2100 --height 820 --out docs/images/materials.png
