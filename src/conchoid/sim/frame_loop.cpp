@@ -15,6 +15,7 @@
 #include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/initiation.hpp"
 #include "conchoid/mesh/manifold_part.hpp"
+#include "conchoid/mesh/unfold.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -337,7 +338,7 @@ std::vector<TriMesh> FrameLoop::fine_sheets() const {
     sheets[part[c[0].index()]].corners.push_back(
         {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
   for (TriMesh& sheet : sheets)
-    sheet = embedded_part(sheet);
+    sheet = embedded_part(unfolded(embedded_part(sheet)));
   std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
   return sheets;
 }

@@ -11,8 +11,10 @@
 #include "conchoid/core/log.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/manifold_part.hpp"
+#include "conchoid/mesh/unfold.hpp"
 #include "conchoid/sim/frame_loop.hpp"
 #include "conchoid/sim/run_identity.hpp"
+#include "conchoid/surface/open_slits.hpp"
 
 namespace conchoid {
 namespace {
@@ -59,7 +61,7 @@ TriMesh used_part(const CutComplex& cut) {
 
 std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   for (TriMesh& sheet : sheets)
-    sheet = embedded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
+    sheet = embedded_part(unfolded(embedded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length))));
   return sheets;
 }
 
@@ -70,6 +72,9 @@ DressSettings dress_settings(const Scene& scene, const BodySetup& setup) {
   settings.crease_angle = scene.output.crease_angle * std::numbers::pi / 180;
   return settings;
 }
+
+// Far below what can be seen, far above what single precision rounds away.
+constexpr double kSlitWidth = 2e-4;  // of the crack surface's edge length
 
 // The detailed body in pieces, and the crack surface inside it.
 void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResult& result) {
@@ -85,8 +90,12 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
     if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
     if (result.document.stop == "separated" && fragments && settings.maximum_count != 1 &&
         result.fragments.size() < 2) {
-      sheets = run_on(std::move(sheets), kRunOut * setup.crack_edge);
-      result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
+      std::vector<TriMesh> longer = run_on(sheets, kRunOut * setup.crack_edge);
+      std::vector<Fragment> pieces = cut_into_fragments(setup.detailed, longer, settings);
+      if (pieces.size() > 1) {
+        sheets = std::move(longer);
+        result.fragments = std::move(pieces);
+      }
     }
     result.crack = used_part(corefine(setup.detailed, join(sheets)));
   } catch (const std::runtime_error&
@@ -102,6 +111,8 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
   // The coarse crack may end a triangle short of where the fine one has cut through.
   if (result.document.stop == "arrested" && result.fragments.size() > 1) result.document.stop = "separated";
   result.document.contacts = fragment_contacts(result.fragments);
+  for (Fragment& f : result.fragments)
+    open_slits(f, kSlitWidth * setup.surface_edge);
   dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
   for (Fragment& f : result.fragments) {
     move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);

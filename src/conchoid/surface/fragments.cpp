@@ -8,6 +8,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/corefine.hpp"
+#include "conchoid/surface/cut_slivers.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
 #include "conchoid/surface/slit_edges.hpp"
@@ -116,6 +117,18 @@ TriMesh nudged(TriMesh sheet, double share) {
   return sheet;
 }
 
+double mean_edge(const TriMesh& sheet) {
+  double sum = 0;
+  for (std::size_t t = 0; t < sheet.triangle_count(); ++t) {
+    const Triangle x = sheet.triangle(TriId(t));
+    sum += (x[1] - x[0]).norm() + (x[2] - x[1]).norm() + (x[0] - x[2]).norm();
+  }
+  return sum / (3 * static_cast<double>(sheet.triangle_count()));
+}
+
+/// Lowest triangle that a cut may leave, in edges of the sheet.
+constexpr double kSmallestHeight = 3e-4;
+
 struct CutPieces {
   std::vector<Piece> pieces;
   bool clean;  ///< nowhere do sheet and surface pass through each other
@@ -125,6 +138,7 @@ CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t f
                          double minimum_volume) {
   CutComplex cut = corefine(piece.mesh, sheet);
   if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
+  remove_slivers(cut, piece.mesh, sheet, kSmallestHeight * mean_edge(sheet));
   split_edges_between_front_nodes(cut);
   Shells shells = glue(cut);
   const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
