@@ -104,7 +104,8 @@ TEST(DiscSheet, HalfOfItSticksOutAndItIsSymmetric) {
   ASSERT_EQ(fronts.size(), 1u);
   EXPECT_EQ(fronts[0].nodes.size(), 12u);
   int inside = 0;
-  for (const Vec3& x : disc.positions) inside += x.z() < -1e-12;
+  for (const Vec3& x : disc.positions)
+    inside += x.z() < -1e-12;
   EXPECT_EQ(inside, 8);  // of 19
   for (std::size_t t = 0; t < 24; ++t)
     EXPECT_LT((unit_normal(disc, TriId(t)) - site.normal).norm(), 1e-12);
@@ -113,4 +114,17 @@ TEST(DiscSheet, HalfOfItSticksOutAndItIsSymmetric) {
     EXPECT_TRUE(std::any_of(disc.positions.begin(), disc.positions.end(),
                             [&](const Vec3& y) { return (y - image).norm() < 1e-12; }));
   }
+}
+
+TEST(Initiation, ABranchStartsWholeBeneathItsFace) {
+  InitiationCandidate c = candidate(3, 2e6, {0, 0, 0});
+  c.on_crack = true;
+  const std::vector<Vec3> crack{{-0.2, -0.1, 0}, {0.2, -0.1, 0}, {0, 0.2, 0}};
+  const auto sites = choose_sites({c}, crack, {0.1, 0.2, 1}, {Vec3(0.5, 0, 0)});
+  ASSERT_EQ(sites.size(), 1u);
+  EXPECT_NEAR((sites[0].center - Vec3(0, 0, -0.115)).norm(), 0, 1e-15);
+  for (const Vec3& x : disc_sheet(sites[0]).positions)
+    EXPECT_LT(x.z(), -0.01);
+  EXPECT_TRUE(choose_sites({c}, crack, {0.1, 0.2, 1}, {Vec3(0.15, 0, 0)}).empty()) << "too near the front";
+  EXPECT_TRUE(choose_sites({c}, {Vec3(0, 0, -0.15)}, {0.1, 0.2, 1}).empty()) << "another crack is there";
 }

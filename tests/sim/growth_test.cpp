@@ -226,5 +226,51 @@ TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, EdgeCrackCube, testing::Values(0.05, 0.08, 0.1));
 
+// A penny crack that does not grow itself, in a body pulled four times as hard along it: its faces see
+// 4σ − (1+2ν)/2 σ, tear across, and the branch joins the face it came from and grows on one side of it.
+std::string branch_text(double strength, int cracks, int frames) {
+  Mat3 remote = Mat3::Zero();
+  remote.diagonal() << 4e6, 0, 1e6;
+  return "[body]\nmodel = 'infinite'\n" + test::material_text({.strength = strength, .toughness = 1e6}) +
+         test::resolution_text(0.1, 0.02) +
+         "[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.5\ntriangles = 384\n" +
+         test::remote_stress_text(remote) +
+         fmt::format("[run]\nframes = {}\nmax_cracks = {}\n", frames, cracks);
+}
+
+TEST(Branch, StartsOnTheFaceOfACrackWhereItIsTooWeak) {
+  const RunResult result = run(branch_text(3e6, 1, 5));
+  EXPECT_EQ(result.cracks, 2);
+  const TriMesh& crack = result.crack;
+  const std::vector<int> part = connected_parts(crack);
+  double reach = 0, low = 1, high = -1, area = 0, across = 0;
+  for (std::size_t n = 0; n < crack.node_count(); ++n) {
+    if (part[n] == 0) continue;
+    const Vec3& x = crack.positions[NodeId(n)];
+    reach = std::max(reach, std::abs(x.y()));
+    // side of the face it started from: within the first disc's reach of the parent's middle
+    if (x.head<2>().norm() < 0.3) {
+      low = std::min(low, x.z());
+      high = std::max(high, x.z());
+    }
+  }
+  const double side = high > -low ? 1 : -1;
+  EXPECT_GT(std::max(high, -low), 0.2);
+  EXPECT_GE(-side * (side > 0 ? low : high), 0) << "does not reach its crack";
+  EXPECT_LT(-side * (side > 0 ? low : high), 0.03) << "goes through its crack";
+  EXPECT_GT(reach, 0.25);
+  for (std::size_t t = 0; t < crack.triangle_count(); ++t)
+    if (part[crack.corners[TriId(t)][0].index()] == 1) {
+      area += area_vector(crack, TriId(t)).norm();
+      across += std::abs(area_vector(crack, TriId(t)).x());
+    }
+  EXPECT_GT(across, 0.9 * area);
+}
+
+TEST(Branch, OnlyBeyondTheStrengthAndIfCracksMayStart) {
+  EXPECT_EQ(run(branch_text(3.5e6, 1, 2)).cracks, 1);
+  EXPECT_EQ(run(branch_text(3e6, 0, 2)).cracks, 1);
+}
+
 }  // namespace
 }  // namespace conchoid

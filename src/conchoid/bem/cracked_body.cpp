@@ -1,6 +1,7 @@
 #include "conchoid/bem/cracked_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
 namespace {
@@ -353,6 +355,34 @@ std::vector<Mat3> CrackedBody::surface_stress() const {
 Mat3 CrackedBody::interior_stress(const Vec3& x) const {
   const Mat3 computed = conchoid::interior_stress(x, loaded_panels(), state_->m);
   return state_->ambient.stress ? Mat3(computed + state_->ambient.stress(x)) : computed;
+}
+
+std::vector<CrackFaceStress> CrackedBody::crack_face_stress(const std::vector<TriId>& pieces) const {
+  constexpr double off_the_face = 0.4;  // in edges of the triangle
+  const State& s = *state_;
+  const std::vector<LoadedPanel> panels = loaded_panels();
+  std::vector<CrackFaceStress> out(pieces.size());
+  parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const LoadedPanel& face = panels[s.space.surface_count + pieces[i].index()];
+      const Panel& p = face.panel;
+      const Vec3 off = off_the_face * std::sqrt(2 * p.area) * p.normal;
+      const auto mean_at = [&](double times) -> Mat3 {
+        return 0.5 * (conchoid::interior_stress(p.center + times * off, panels, s.m) +
+                      conchoid::interior_stress(p.center - times * off, panels, s.m));
+      };
+      Mat3 base = 2 * mean_at(1) - mean_at(2);
+      if (s.ambient.stress) base += s.ambient.stress(p.center);
+      const Mat3 strain = strain_of(base, s.m);
+      for (const double side : {1.0, -1.0}) {
+        std::array<Vec3, 3> u;
+        for (int k = 0; k < 3; ++k)
+          u[k] = strain * (p.x[k] - p.center) - 0.5 * side * face.density[k];
+        (side > 0 ? out[i].plus : out[i].minus) = conchoid::surface_stress(p.x, u, base * p.normal, s.m);
+      }
+    }
+  });
+  return out;
 }
 
 const AppendStatistics& CrackedBody::statistics() const {

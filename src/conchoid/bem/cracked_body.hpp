@@ -17,6 +17,11 @@ struct BemSettings {
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
 };
 
+/// Stress [Pa] in the two faces of a crack; its traction part is the same in both.
+struct CrackFaceStress {
+  Mat3 plus, minus;  ///< on the side the crack's normal points to, and on the other
+};
+
 /// What the last set_crack() had to do.
 struct AppendStatistics {
   std::size_t functions = 0;   ///< cut functions in the system
@@ -64,6 +69,9 @@ class CrackedBody {
   std::vector<Mat3> surface_stress() const;
   /// Stress [Pa] at a point inside the body and off the crack.
   Mat3 interior_stress(const Vec3& x) const;
+  /// Stress in both faces of some triangles of the cut complex's sheet, at their centroids. Meant for
+  /// triangles away from the front, where it is singular. docs/theory.md (T3)
+  std::vector<CrackFaceStress> crack_face_stress(const std::vector<TriId>& pieces) const;
   const AppendStatistics& statistics() const;
   /// ½ fᵀx [J]: half the work of the loads; the part due to the crack is the energy it releases under
   /// constant load.

@@ -20,6 +20,11 @@ Mat3 surface_stress(const Triangle& x, const std::array<Vec3, 3>& u, const Vec3&
          normal * n * n.transpose() + shear * n.transpose() + n * shear.transpose();
 }
 
+Mat3 strain_of(const Mat3& stress, const ElasticConstants& m) {
+  const double nu = m.poisson_ratio;
+  return (stress - nu / (1 + nu) * stress.trace() * Mat3::Identity()) / (2 * m.shear_modulus());
+}
+
 PrincipalStress principal_stress(const Mat3& stress) {
   Eigen::SelfAdjointEigenSolver<Mat3> solver;
   solver.compute(stress);

@@ -12,6 +12,9 @@ namespace conchoid {
 Mat3 surface_stress(const Triangle& x, const std::array<Vec3, 3>& u, const Vec3& t,
                     const ElasticConstants& m);
 
+/// Strain of a stress by Hooke's law: ε = (σ − ν/(1+ν) tr σ · 1) / 2μ.
+Mat3 strain_of(const Mat3& stress, const ElasticConstants& m);
+
 /// Principal values, largest first, and the direction that belongs to each (columns; signs are the eigen
 /// solver's).
 struct PrincipalStress {

@@ -13,6 +13,8 @@ constexpr double kEqual = 1e-3;          ///< relative difference in severity th
 constexpr double kPerpendicular = 1e-6;  ///< cosine below which a direction does not fix a sign
 constexpr double kEquallyRemote = 1e-6;  ///< relative difference in remoteness that does not count
 constexpr double kOutward = 0.1;         ///< × radius, how far outside of the surface the disc's centre lies
+constexpr double kBeneath = 1.15;        ///< × radius, how far beneath a crack's face a branch's centre lies
+constexpr double kClear = 0.95;          ///< × radius, from a branch's centre to all crack nodes
 constexpr int kRings = 2;
 
 /// ±v on the positive side of the first reference that is not perpendicular to it.
@@ -40,7 +42,8 @@ CrackSite make_site(const InitiationCandidate& c, double radius) {
   site.inward = inward.normalized();
   site.side = with_fixed_sign(cross(site.normal, site.inward), references);
   site.radius = radius;
-  site.center -= kOutward * radius * site.inward;  // no node of the disc lies in the surface itself
+  // no node of the disc lies in the surface itself
+  site.center += (c.on_crack ? kBeneath : -kOutward) * radius * site.inward;
   site.severity = c.principal_stress / c.strength;
   return site;
 }
@@ -72,12 +75,16 @@ auto next_candidate(const std::vector<InitiationCandidate>& left) {
 }  // namespace
 
 std::vector<CrackSite> choose_sites(const std::vector<InitiationCandidate>& candidates,
-                                    const std::vector<Vec3>& crack_nodes,
-                                    const InitiationSettings& settings) {
+                                    const std::vector<Vec3>& crack_nodes, const InitiationSettings& settings,
+                                    const std::vector<Vec3>& front_nodes) {
+  const auto is_free = [&](const InitiationCandidate& c) {
+    if (!c.on_crack) return !closer_than(settings.min_distance, c.position, crack_nodes);
+    return !closer_than(settings.min_distance, c.position, front_nodes) &&
+           !closer_than(kClear * settings.resolution, make_site(c, settings.resolution).center, crack_nodes);
+  };
   std::vector<InitiationCandidate> left;
   for (const auto& c : candidates)
-    if (c.principal_stress > c.strength && !closer_than(settings.min_distance, c.position, crack_nodes))
-      left.push_back(c);
+    if (c.principal_stress > c.strength && is_free(c)) left.push_back(c);
   std::vector<CrackSite> sites;
   while (sites.size() < settings.most && !left.empty()) {
     const auto best = next_candidate(left);

@@ -25,6 +25,7 @@ constexpr double kAlongSurface = 0.9;  // cosine between σ1 and the surface nor
 // × r̄: openings beyond it, a triangle behind the front, say nothing in linear elasticity: a piece hangs by a
 // thread. No sample is taken from them, and the thread breaks straight ahead.
 constexpr double kLargestOpening = 3;
+constexpr double kAlongFace = 0.5;        // the same at the face of a crack
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 
@@ -61,6 +62,51 @@ WeakPoint weakest_point(const Triangle& x, double strength, const MaterialField&
       if (here < weakest.strength) weakest = {at, here};
     }
   return weakest;
+}
+
+// Candidates for branches: faces of the crack's whole triangles away from its fronts.
+std::vector<InitiationCandidate> find_branches(const BodySetup& setup, const CrackState& crack,
+                                               const CrackedBody& body, double strength,
+                                               const std::vector<Vec3>& front_nodes, double distance) {
+  const auto whole = [&](const std::array<NodeId, 3>& c) {
+    return std::all_of(c.begin(), c.end(), [&](NodeId n) {
+      const NodeId of_sheet = crack.cut.sheet_node[n];
+      return of_sheet.valid() && crack.node_in_cut[of_sheet] == n;
+    });
+  };
+  std::vector<TriId> faces;
+  for (std::size_t t = 0; t < crack.cut.sheet.size(); ++t) {
+    const Vec3 x = centroid(crack.trimmed, TriId(t));
+    if (whole(crack.cut.sheet[TriId(t)]) &&
+        std::none_of(front_nodes.begin(), front_nodes.end(),
+                     [&](const Vec3& y) { return (y - x).squaredNorm() < distance * distance; }))
+      faces.push_back(TriId(t));
+  }
+  const std::vector<CrackFaceStress> stress = body.crack_face_stress(faces);
+  const Vec3 center = setup.infinite() ? Vec3(Vec3::Zero()) : bounding_box(setup.surface).center();
+  std::vector<InitiationCandidate> out;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    auto nodes = crack.cut.sheet[faces[i]];
+    std::sort(nodes.begin(), nodes.end());
+    const Vec3 n = unit_normal(crack.trimmed, faces[i]), x = centroid(crack.trimmed, faces[i]);
+    const double local_strength = strength * setup.strength.at(x).value;
+    for (const double side : {1.0, -1.0}) {
+      const PrincipalStress p = principal_stress(side > 0 ? stress[i].plus : stress[i].minus);
+      if (p.value[0] <= local_strength || std::abs(p.direction.col(0).dot(n)) > kAlongFace) continue;
+      const TriId id(setup.surface.triangle_count() + 2 * faces[i].index() + (side > 0 ? 0 : 1));
+      const auto& y = crack.cut.positions;
+      out.push_back({x,
+                     p.value[0],
+                     p.direction.col(0),
+                     side * n,
+                     local_strength,
+                     id,
+                     {y[nodes[0]], y[nodes[1]], y[nodes[2]]},
+                     (x - center).norm(),
+                     true});
+    }
+  }
+  return out;
 }
 
 // Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
@@ -132,13 +178,24 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
   };
 }
 
-// One new crack at a time, where the stress as last solved exceeds the strength most.
+// One new crack at a time, where the stress as last solved exceeds the strength most: on the body's surface,
+// or as a branch on the face of a crack.
 void FrameLoop::start_cracks(RunResult& result) {
-  if (setup_.infinite() || started_ >= scene_.run.max_cracks) return;
-  std::vector<Vec3> taken(crack_.sheet.mesh.positions.begin(), crack_.sheet.mesh.positions.end());
-  const auto sites = choose_sites(find_candidates(setup_, crack_, bem_.body(), scene_.material.strength),
-                                  taken, {setup_.crack_edge, 2 * setup_.crack_edge, 1});
-  for (const CrackSite& site : sites) {
+  if (started_ >= scene_.run.max_cracks) return;
+  const auto& x = crack_.sheet.mesh.positions;
+  const std::vector<Vec3> taken(x.begin(), x.end());
+  std::vector<Vec3> fronts;
+  for (const SheetFront& front : crack_.sheet.fronts)
+    for (const NodeId n : front.nodes)
+      fronts.push_back(x[n]);
+  const double r = setup_.crack_edge, strength = scene_.material.strength;
+  std::vector<InitiationCandidate> candidates =
+      find_branches(setup_, crack_, bem_.body(), strength, fronts, 2 * r);
+  if (!setup_.infinite()) {
+    const auto on_surface = find_candidates(setup_, crack_, bem_.body(), strength);
+    candidates.insert(candidates.end(), on_surface.begin(), on_surface.end());
+  }
+  for (const CrackSite& site : choose_sites(candidates, taken, {r, 2 * r, 1}, fronts)) {
     append_part(crack_.sheet, disc_sheet(site));
     ++started_;
     ++result.cracks;

@@ -309,7 +309,9 @@ const std::vector<Setting>& settings() {
 
       {"run", "frames", integer, "frames", "30",
        "most frames to simulate; a front moves at most crack per frame", between(1, 100000)},
-      {"run", "max_cracks", integer, "cracks", "1", "new cracks that may start; 0: only the initial ones",
+      {"run", "max_cracks", integer, "cracks", "1",
+       "new cracks that may start, on the surface or as branches on faces of cracks; 0: only the initial "
+       "ones",
        between(0, 10000)},
       {"run", "seed", integer, "", "1", "of everything random", between(0, 9007199254740992.0)},
       {"run", "inertia_relief", boolean, "", "false",
