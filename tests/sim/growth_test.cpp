@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/sim/run.hpp"
 #include "scenes.hpp"
 
@@ -225,6 +226,26 @@ TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, EdgeCrackCube, testing::Values(0.05, 0.08, 0.1));
+
+// A penny crack pressed three times and a bit as hard as it would bear pulled.
+TEST(Compression, DrivesACrackOnlyAsPublishedAndOnlyBeyondTheFactor) {
+  const double K = 2 * 1e6 * std::sqrt(0.5 / std::numbers::pi);
+  const auto grown = [&](double factor, const std::string& run_keys) {
+    Mat3 remote = Mat3::Zero();
+    remote(2, 2) = -1e6;
+    return run("[body]\nmodel = 'infinite'\n" + test::material_text({.toughness = K / 3.5}) +
+               fmt::format("compressive_factor = {}\n", factor) + test::resolution_text(0.1, 0.05) +
+               "[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.5\ntriangles = "
+               "384\n" +
+               test::remote_stress_text(remote) + "[run]\nframes = 2\nmax_cracks = 0\n" + run_keys)
+        .largest_growth;
+  };
+  EXPECT_EQ(grown(3, ""), 0);
+  EXPECT_EQ(grown(3, "contact = false\n"), 0);
+  EXPECT_GT(grown(3, "contact = false\ncompression = 'published'\n"), 0.02);
+  EXPECT_EQ(grown(4, "contact = false\ncompression = 'published'\n"), 0);
+  EXPECT_THROW(grown(3, "compression = 'published'\n"), InputError);
+}
 
 // A penny crack that does not grow itself, in a body pulled four times as hard along it: its faces see
 // 4σ − (1+2ν)/2 σ, tear across, and the branch joins the face it came from and grows on one side of it.

@@ -212,13 +212,16 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     const FrontPoint& point = crack_.points[i];
     const FrontOpening& o = openings[i];
     const FrontFrame& f = point.frame;
-    const double K_eff = effective_intensity(o.intensity, m_);
+    const Vec3 K = scene_.run.published_compression
+                       ? with_compressive_factor(o.intensity, scene_.material.compressive_factor)
+                       : o.intensity;
+    const double K_eff = effective_intensity(K, m_);
     const bool arrested = crack_.sheet.state[point.node] == FrontState::arrested;
     const double K_c = toughness_(crack_.sheet.mesh.positions[point.node]).value;
     const double length = arrested ? 0 : advance_length(K_eff, K_c, setup_.crack_edge);
     const bool thread = opening_from_intensity(o.intensity, setup_.crack_edge, m_).norm() >
                         kLargestOpening * setup_.crack_edge;
-    const double angle = thread ? 0 : kink_angle(o.intensity, m_);
+    const double angle = thread ? 0 : kink_angle(K, m_);
     largest_intensity_ = std::max(largest_intensity_, K_eff);
     // Where the toughness varies every marker decides for itself.
     if (length > 0 || (!arrested && K_eff > 0 && !setup_.toughness.homogeneous()))

@@ -258,13 +258,18 @@ RunSpec read_run(const TomlTable& file) {
   table->read("quadrature_tolerance", run.quadrature_tolerance);
   table->read("smallest_fragment", run.smallest_fragment);
   table->read("max_fragments", run.max_fragments);
-  std::string sif = "two-point", convention = "full-opening", rayleigh = "exact";
+  std::string sif = "two-point", convention = "full-opening", rayleigh = "exact", compression = "closed";
   table->read("sif", sif);
   table->read("sif_convention", convention);
   table->read("rayleigh", rayleigh);
   run.sif = sif == "two-point" ? SifSource::two_point : SifSource::one_point;
   run.sif_convention = convention == "full-opening" ? OpeningConvention::full : OpeningConvention::half;
   run.exact_rayleigh_speed = rayleigh == "exact";
+  table->read("compression", compression);
+  run.published_compression = compression == "published";
+  if (run.published_compression && run.contact)
+    table->fail("compression",
+                "compression = \"published\" goes with contact = false: faces in contact feel no K_I < 0");
   return run;
 }
 

@@ -87,6 +87,7 @@ struct RunSpec {
   bool contact = true;
   SifSource sif = SifSource::two_point;
   OpeningConvention sif_convention = OpeningConvention::full;
+  bool published_compression = false;  ///< with_compressive_factor() before growth, else closed faces
   double quadrature_tolerance = 1e-6;
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
