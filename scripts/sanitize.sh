@@ -4,7 +4,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install-dependencies.sh
-export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 for preset in asan tsan; do
   cmake --preset "$preset"
   cmake --build --preset "$preset" --parallel "$(nproc)"

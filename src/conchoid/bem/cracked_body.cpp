@@ -227,10 +227,10 @@ void CrackedBody::State::eliminate_members() {
   std::vector<double> coupling(count * old_size), diagonal(count * count);
   for (std::size_t i = 0; i < count; ++i) {
     const Member& member = members[factored + i / 3];
-    std::copy_n(&member.coupling.data[(i % 3) * n], n, &coupling[i * old_size]);
-    const double* row = &among.data[(3 * factored + i) * among.columns];
-    std::copy_n(row, 3 * factored, &coupling[i * old_size + n]);
-    std::copy_n(row + 3 * factored, count, &diagonal[i * count]);
+    std::copy_n(member.coupling.data.data() + (i % 3) * n, n, coupling.data() + i * old_size);
+    const double* row = among.data.data() + (3 * factored + i) * among.columns;
+    std::copy_n(row, 3 * factored, coupling.data() + i * old_size + n);
+    std::copy_n(row + 3 * factored, count, diagonal.data() + i * count);
   }
   if (!P.append(coupling, diagonal))
     throw ComputationError(
