@@ -106,7 +106,7 @@ TEST_P(RandomScenes, BreakIntoProperSolids) {
     pieces += static_cast<int>(result.fragments.size());
     cracked += result.cracks > 0 ? 1 : 0;
   }
-  EXPECT_GE(3 * cracked, kScenesPerTest);
+  EXPECT_GE(4 * cracked, kScenesPerTest);
   RecordProperty("pieces", pieces);
 }
 
