@@ -13,32 +13,16 @@ namespace {
 std::unique_ptr<tbb::global_control> control;
 int threads_wanted = 0;
 
-/// What is written before a loop is seen by its bodies, and what they write after it. The loop itself sees to
-/// that, in a library that the thread sanitizer cannot look into: there it is said once more.
-class Handover {
- public:
 #ifdef __SANITIZE_THREAD__
-  Handover() {
-    state_.store(1, std::memory_order_release);
-  }
-  void begin() const {
-    state_.load(std::memory_order_acquire);
-  }
-  void end() {
-    state_.fetch_add(1, std::memory_order_acq_rel);
-  }
-  void finish() const {
-    begin();
-  }
-
- private:
-  std::atomic<std::size_t> state_{0};
+/// What is written before a loop is seen by its bodies, and what they write after it. TBB sees to that, where
+/// the thread sanitizer cannot look: here it is said once more.
+std::atomic<std::size_t> handed_over{0};
+void hand_over() {
+  handed_over.fetch_add(1, std::memory_order_acq_rel);
+}
 #else
-  void begin() const {}
-  void end() {}
-  void finish() const {}
+void hand_over() {}
 #endif
-};
 }  // namespace
 
 void set_thread_count(int threads) {
@@ -60,13 +44,13 @@ void parallel_for(std::size_t n, std::size_t grain,
   grain = std::max<std::size_t>(1, grain);
   const std::size_t chunks = (n + grain - 1) / grain;
   if (chunks == 1) return body(0, n);
-  Handover data;
+  hand_over();
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    data.begin();
+    hand_over();
     body(c * grain, std::min(n, (c + 1) * grain));
-    data.end();
+    hand_over();
   });
-  data.finish();
+  hand_over();
 }
 
 }  // namespace conchoid
