@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <memory>
 #include <thread>
+#include <vector>
 
 namespace conchoid {
 namespace {
@@ -14,14 +16,31 @@ std::unique_ptr<tbb::global_control> control;
 int threads_wanted = 0;
 
 #ifdef __SANITIZE_THREAD__
-/// What is written before a loop is seen by its bodies, and what they write after it. TBB sees to that, where
-/// the thread sanitizer cannot look: here it is said once more.
-std::atomic<std::size_t> handed_over{0};
-void hand_over() {
-  handed_over.fetch_add(1, std::memory_order_acq_rel);
+/// TBB synchronises where the thread sanitizer cannot look: under it, threads of our own run the chunks.
+void run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(thread_count()));
+  const auto work = [&](std::size_t worker) {
+    try {
+      for (std::size_t c; (c = next++) < chunks;)
+        chunk(c);
+    } catch (...) {
+      failures[worker] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t worker = 1; worker < failures.size(); ++worker)
+      others.emplace_back(work, worker);
+    work(0);
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 #else
-void hand_over() {}
+void run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { chunk(c); });
+}
 #endif
 }  // namespace
 
@@ -44,13 +63,7 @@ void parallel_for(std::size_t n, std::size_t grain,
   grain = std::max<std::size_t>(1, grain);
   const std::size_t chunks = (n + grain - 1) / grain;
   if (chunks == 1) return body(0, n);
-  hand_over();
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) {
-    hand_over();
-    body(c * grain, std::min(n, (c + 1) * grain));
-    hand_over();
-  });
-  hand_over();
+  run_chunks(chunks, [&](std::size_t c) { body(c * grain, std::min(n, (c + 1) * grain)); });
 }
 
 }  // namespace conchoid
