@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,6 +10,7 @@
 #include "conchoid/io/fragments_io.hpp"
 #include "conchoid/mesh/formats.hpp"
 #include "conchoid/surface/dress_fragments.hpp"
+#include "io/program_output.hpp"
 #include "io/samples.hpp"
 #include "mesh/cut_shapes.hpp"
 
@@ -19,17 +18,6 @@
 using namespace conchoid;
 
 namespace {
-
-/// A program's status and what it writes to stdout.
-std::pair<int, std::string> result_of(const std::string& command) {
-  std::string text;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return {-1, ""};
-  std::array<char, 4096> part;
-  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-    text.append(part.data(), n);
-  return {pclose(pipe), text};
-}
 
 bool is_there() {
   return result_of("blender --version 2>/dev/null").first == 0;

@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "conchoid/io/fragments_io.hpp"
 #include "conchoid/surface/dress_fragments.hpp"
+#include "io/program_output.hpp"
 #include "io/samples.hpp"
 #include "mesh/cut_shapes.hpp"
 
@@ -16,15 +15,10 @@ namespace {
 
 const std::filesystem::path validator = std::filesystem::path(CONCHOID_SOURCE_DIR) / "tests/gltf";
 
-/// What a program writes to stdout.
+/// What a program writes to stdout; nothing if it fails.
 std::string output_of(const std::string& command) {
-  std::string text;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return text;
-  std::array<char, 4096> part;
-  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-    text.append(part.data(), n);
-  return pclose(pipe) == 0 ? text : std::string();
+  const auto [status, text] = result_of(command);
+  return status == 0 ? text : std::string();
 }
 
 bool is_there() {

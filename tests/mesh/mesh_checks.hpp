@@ -56,4 +56,15 @@ inline double smallest_angle_degrees(const TriMesh& mesh) {
   return smallest;
 }
 
+/// Adds the triangles of another mesh, moved.
+inline void append(TriMesh& mesh, const TriMesh& other, const Vec3& shift = Vec3::Zero()) {
+  const TriMesh added = other;  // which may be the mesh itself
+  const auto first = static_cast<std::int32_t>(mesh.node_count());
+  for (const Vec3& x : added.positions)
+    mesh.positions.push_back(x + shift);
+  for (const auto& c : added.corners)
+    mesh.corners.push_back(
+        {NodeId(c[0].value + first), NodeId(c[1].value + first), NodeId(c[2].value + first)});
+}
+
 }  // namespace conchoid

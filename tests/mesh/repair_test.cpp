@@ -20,15 +20,6 @@
 namespace conchoid {
 namespace {
 
-void append(TriMesh& mesh, const TriMesh& other, const Vec3& shift = Vec3::Zero()) {
-  const auto first = static_cast<std::int32_t>(mesh.node_count());
-  for (const Vec3& x : other.positions)
-    mesh.positions.push_back(x + shift);
-  for (const auto& c : other.corners)
-    mesh.corners.push_back(
-        {NodeId(c[0].value + first), NodeId(c[1].value + first), NodeId(c[2].value + first)});
-}
-
 TriMesh cube() {
   return box_mesh(Vec3(1, 1, 1), 4, 4, 4);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "conchoid/mesh/editable_mesh.hpp"
+#include "conchoid/mesh/place.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
@@ -15,24 +16,10 @@ namespace {
 constexpr double flattest_triangle = 1e-10;  // height over longest edge, as in validate.cpp
 
 std::size_t merge_equal_nodes(TriMesh& mesh) {
-  std::vector<NodeId> order(mesh.node_count());
-  for (std::size_t n = 0; n < order.size(); ++n)
-    order[n] = NodeId(n);
-  const auto place = [&](NodeId n) {
-    const Vec3& x = mesh.positions[n];
-    return std::array<double, 3>{x.x(), x.y(), x.z()};
-  };
-  std::sort(order.begin(), order.end(), [&](NodeId m, NodeId n) {
-    const auto a = place(m), b = place(n);
-    return a != b ? a < b : m < n;
-  });
-  IdVector<NodeId, NodeId> kept(mesh.node_count());
+  const IdVector<NodeId, NodeId> kept = first_at_place(mesh);
   std::size_t merged = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool again = i > 0 && place(order[i]) == place(order[i - 1]);
-    kept[order[i]] = again ? kept[order[i - 1]] : order[i];
-    merged += again;
-  }
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    merged += kept[NodeId(n)] != NodeId(n);
   for (auto& c : mesh.corners)
     for (NodeId& n : c)
       n = kept[n];

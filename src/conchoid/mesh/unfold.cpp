@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/mesh/manifold_part.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -101,6 +103,10 @@ TriMesh unfolded(TriMesh sheet) {
       sheet.positions[n] = to;
   }
   return sheet;
+}
+
+TriMesh unfolded_part(const TriMesh& sheet) {
+  return embedded_part(unfolded(embedded_part(sheet)));
 }
 
 }  // namespace conchoid

@@ -16,4 +16,7 @@ Vec3 common_direction(const std::vector<Vec3>& vectors);
 /// it), together with others, until there is none or nothing is gained. All other nodes stay bit for bit.
 TriMesh unfolded(TriMesh sheet);
 
+/// The embedded part (manifold_part.hpp) of a sheet without sharp folds: fit to cut a body.
+TriMesh unfolded_part(const TriMesh& sheet);
+
 }  // namespace conchoid

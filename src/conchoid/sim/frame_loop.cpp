@@ -14,7 +14,6 @@
 #include "conchoid/core/progress.hpp"
 #include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/initiation.hpp"
-#include "conchoid/mesh/manifold_part.hpp"
 #include "conchoid/mesh/unfold.hpp"
 #include "conchoid/surface/separation.hpp"
 
@@ -188,14 +187,15 @@ void FrameLoop::start_cracks(RunResult& result) {
   for (const SheetFront& front : crack_.sheet.fronts)
     for (const NodeId n : front.nodes)
       fronts.push_back(x[n]);
-  const double r = setup_.crack_edge, strength = scene_.material.strength;
+  const InitiationSettings settings{setup_.crack_edge, 2 * setup_.crack_edge, 1};
+  const double strength = scene_.material.strength;
   std::vector<InitiationCandidate> candidates =
-      find_branches(setup_, crack_, bem_.body(), strength, fronts, 2 * r);
+      find_branches(setup_, crack_, bem_.body(), strength, fronts, settings.min_distance);
   if (!setup_.infinite()) {
     const auto on_surface = find_candidates(setup_, crack_, bem_.body(), strength);
     candidates.insert(candidates.end(), on_surface.begin(), on_surface.end());
   }
-  for (const CrackSite& site : choose_sites(candidates, taken, {r, 2 * r, 1}, fronts)) {
+  for (const CrackSite& site : choose_sites(candidates, taken, settings, fronts)) {
     append_part(crack_.sheet, disc_sheet(site));
     ++started_;
     ++result.cracks;
@@ -398,7 +398,7 @@ std::vector<TriMesh> FrameLoop::fine_sheets() const {
     sheets[part[c[0].index()]].corners.push_back(
         {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
   for (TriMesh& sheet : sheets)
-    sheet = embedded_part(unfolded(embedded_part(sheet)));
+    sheet = unfolded_part(sheet);
   std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
   return sheets;
 }

@@ -10,7 +10,6 @@
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
-#include "conchoid/mesh/manifold_part.hpp"
 #include "conchoid/mesh/unfold.hpp"
 #include "conchoid/sim/frame_loop.hpp"
 #include "conchoid/sim/run_identity.hpp"
@@ -61,7 +60,7 @@ TriMesh used_part(const CutComplex& cut) {
 
 std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   for (TriMesh& sheet : sheets)
-    sheet = embedded_part(unfolded(embedded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length))));
+    sheet = unfolded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
   return sheets;
 }
 

@@ -7,41 +7,22 @@
 #include <iterator>
 #include <map>
 
+#include "conchoid/mesh/place.hpp"
 #include "conchoid/mesh/self_intersection.hpp"
 #include "conchoid/mesh/unfold.hpp"
 
 namespace conchoid {
 namespace {
 
-/// Nodes at the same place, to the last bit.
+/// Which nodes lie where others do.
 struct Places {
   IdVector<NodeId, NodeId> first;  ///< per node: the first one at its place
-  IdVector<NodeId, int> count;     ///< per node: how many are at its place
+  IdVector<NodeId, char> shared;   ///< per node: whether there are others
 
-  explicit Places(const TriMesh& mesh) : first(mesh.node_count()), count(mesh.node_count(), 0) {
-    const auto key = [&](NodeId n) {
-      const Vec3& x = mesh.positions[n];
-      return std::array{x.x(), x.y(), x.z()};
-    };
-    std::vector<NodeId> order;
-    for (std::size_t n = 0; n < mesh.node_count(); ++n)
-      order.emplace_back(n);
-    std::sort(order.begin(), order.end(), [&](NodeId m, NodeId n) {
-      const auto a = key(m), b = key(n);
-      return a != b ? a < b : m < n;
-    });
-    for (std::size_t begin = 0; begin < order.size();) {
-      std::size_t end = begin + 1;
-      while (end < order.size() && key(order[end]) == key(order[begin]))
-        ++end;
-      for (std::size_t i = begin; i < end; ++i) {
-        first[order[i]] = order[begin];
-        count[order[i]] = static_cast<int>(end - begin);
-      }
-      begin = end;
-    }
+  explicit Places(const TriMesh& mesh) : first(first_at_place(mesh)), shared(mesh.node_count(), 0) {
+    for (std::size_t n = 0; n < first.size(); ++n)
+      if (first[NodeId(n)] != NodeId(n)) shared[NodeId(n)] = shared[first[NodeId(n)]] = 1;
   }
-  bool shared(NodeId n) const { return count[n] > 1; }
 };
 
 /// Per face: those of the same piece that it lies on, if it is one of a slit.
@@ -110,7 +91,7 @@ IdVector<NodeId, Vec3> ways(const Fragment& f, const Places& places) {
     const auto& c = f.mesh.corners[TriId(t)];
     const Vec3 normal = unit_normal(f.mesh, TriId(t));
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!places.shared(c[k])) continue;
+      if (!places.shared[c[k]]) continue;
       Corner& corner = corners[c[k]];
       if (parts_from(c[k], opposite[t])) {
         if (!normal.isZero(0)) corner.inward.push_back(-normal);

@@ -7,17 +7,13 @@
 #include <optional>
 #include <set>
 
+#include "conchoid/mesh/place.hpp"
 #include "conchoid/mesh/retriangulate.hpp"
 #include "conchoid/surface/contacts.hpp"
 #include "conchoid/surface/union_find.hpp"
 
 namespace conchoid {
 namespace {
-
-using Place = std::array<double, 3>;
-Place place(const Vec3& x) {
-  return {x[0], x[1], x[2]};
-}
 
 /// A triangle of a member.
 struct Face {
