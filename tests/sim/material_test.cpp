@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <string>
 
@@ -271,38 +270,27 @@ TEST(Material, ScalingByAPowerOfTwoKeepsTheBits) {
     ASSERT_EQ(a.crack.positions[NodeId(i)], b.crack.positions[NodeId(i)]);
 }
 
-/// Mean K_I along the fronts, per frame.
-std::map<int, double> mean_intensity(const RunResult& result) {
-  std::map<int, double> sum, count;
-  for (const FrontRow& row : result.front) {
-    sum[row.frame] += row.intensity[0];
-    ++count[row.frame];
-  }
-  for (auto& [frame, mean] : sum)
-    mean /= count[frame];
-  return sum;
+/// What the boundary elements have seen and computed, front point by front point.
+std::string front_text(const RunResult& result) {
+  std::string text;
+  for (const FrontRow& row : result.front)
+    text += fmt::format("{} {} {} {} {} {}\n", row.frame, row.front, row.node, test::text(row.position),
+                        test::text(Vec3(row.intensity[0], row.intensity[1], row.intensity[2])),
+                        test::text(Vec3(row.opening[0], row.opening[1], row.opening[2])));
+  return text;
 }
 
-double largest_difference(const RunResult& a, const RunResult& b, int frames) {
-  const auto of_a = mean_intensity(a), of_b = mean_intensity(b);
-  double largest = 0;
-  for (int frame = 1; frame <= frames; ++frame)
-    largest = std::max(largest, std::abs(of_b.at(frame) / of_a.at(frame) - 1));
-  return largest;
-}
-
-// Twice as fine: the same surface within the old spacing, at no more than five times the price, from the same
-// boundary elements.
+// Twice as fine: the same surface well within the old spacing, from the same boundary elements, bit for bit.
+// What it costs: bench/run_bench.cpp, surface_refined.
 TEST(Material, RefiningTheSurfaceRefinesTheSurfaceOnly) {
   for (const std::string& field :
-       {std::string(), noise_text(0.2, 0.2, 3), layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
+       {std::string(), noise_text(0.2, 0.2, 3), noise_text(0.2, 0.3), layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
     const RunResult coarse = run(cube_text(field, 0.02)), fine = run(cube_text(field, 0.01));
     EXPECT_EQ(coarse.document.stop, "separated");
-    EXPECT_EQ(coarse.document.frames, fine.document.frames);
-    EXPECT_LT(symmetric_distance(coarse.crack, fine.crack, 5000).mean, 0.02);
+    EXPECT_EQ(front_text(coarse), front_text(fine));
+    EXPECT_EQ(coarse.fragments.size(), fine.fragments.size());
+    EXPECT_LT(symmetric_distance(coarse.crack, fine.crack, 5000).mean, 0.3 * 0.02);
     RecordProperty("apart", test::text(symmetric_distance(coarse.crack, fine.crack, 5000).mean));
-    EXPECT_LT(fine.document.total_seconds, 5 * coarse.document.total_seconds);
-    EXPECT_LT(largest_difference(coarse, fine, 4), 0.02);  // before the last ligaments
   }
 }
 

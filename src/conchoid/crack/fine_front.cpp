@@ -20,8 +20,9 @@ constexpr double kRowAfter = 0.5;      ///< × h: distance from the last row at 
 constexpr double kLastRowAfter = 0.1;  ///< × h: the same at the end of a run
 constexpr double kFaceDistance = 0.5;  ///< × h: how far from a face a marker stops
 constexpr std::size_t kOwnMarkers = 4;  ///< markers on either side whose rows are not in a marker's way
-constexpr int kMostParts = 64;          ///< edges of initial triangles are divided into at most this many
-constexpr double kRound = 1e-6;         ///< so that r̄/h = 20 + round-off is 20
+constexpr int kMostParts = 4;           ///< of a sub-step, where h is finer than it
+constexpr int kMostDivisions = 64;      ///< edges of initial triangles are divided into at most this many
+constexpr double kRound = 1e-6;  ///< so that r̄/h = 20 + round-off is 20, and a face just reached is reached
 
 double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
   const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
@@ -116,7 +117,8 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   double edge = 0;
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f)
     edge = std::max(edge, mean_front_edge(sheet.mesh, sheet.fronts[f]));
-  const int parts = std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostParts);
+  const int parts =
+      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostDivisions);
   const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
   const std::vector<int> part = connected_parts(surface_);
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
@@ -129,42 +131,82 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   known_triangles_ = sheet.mesh.triangle_count();
 }
 
-std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
+std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
                                             const ToughnessField& toughness) {
+  return advance(sheet, steps, toughness, nullptr);
+}
+
+void FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
+                        const ToughnessField& toughness, const FineFront& leader) {
+  advance(sheet, steps, toughness, &leader.tracks_);
+}
+
+std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
+                                            const ToughnessField& toughness,
+                                            const std::vector<FrontTrack>* leaders) {
   append_parts(sheet);
   frame_ = sheet.frame + 1;
   std::unordered_map<NodeId, FrontStep> step_of;
   for (const FrontStep& step : given)
     step_of.emplace(step.node, step);
   const auto normals = node_area_vectors(sheet.mesh);
-  const int count = std::clamp(static_cast<int>(std::ceil(settings_.resolution / settings_.spacing - kRound)),
-                               1, settings_.most_sub_steps);
   std::vector<FrontMotion> motions;
+  tracks_.assign(curves_.size(), {});
   for (std::size_t f = 0; f < curves_.size(); ++f) {
     FrontSteps steps(sheet, sheet.fronts[f], normals, step_of);
     if (settings_.smooth_angles) steps.smooth_angles();
     MarkerCurve& curve = curves_[f];
+    if (leaders) attach_riders(curve, steps.nodes(), sheet.mesh.positions);
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers) {
       marker.direction_before = marker.direction;
       marker.moved = false;
+      if (leaders && marker.at_own_face) marker.arrested = marker.at_own_face = false;
     }
     std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
     for (std::size_t k = 0; k < steps.size(); ++k)
       inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
                        sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
                            FrontState::outside);
-    for (int step = 0; step < count; ++step) {
-      std::vector<Vec3> from;
-      for (const Marker& marker : curve.markers)
-        from.push_back(marker.position);
-      if (!move_markers(curve, steps, toughness, step, count)) continue;
-      stop_at_faces(curve, from, inside);
-      leave_row(curve, kRowAfter * settings_.spacing);
-    }
-    append_motions(sheet, curve, steps, motions);
+    sweep(curve, steps, inside, toughness, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
+    if (!leaders) append_motions(sheet, curve, steps, motions);
   }
   return motions;
+}
+
+void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
+                      const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader) {
+  const auto smooth_front = [&](double time) {
+    if (!leader || leader->empty()) return smoothed_positions(curve, settings_.resolution);
+    std::vector<Vec3> on_track;
+    for (const Marker& marker : curve.markers)
+      on_track.push_back(leader->at(marker.parameter, time));
+    return on_track;
+  };
+  const double divided = settings_.resolution / settings_.spacing / settings_.sub_steps;
+  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRound)), 1, kMostParts);
+  const int count = parts * settings_.sub_steps;
+  for (int step = 0; step < count; ++step) {
+    const double begin = static_cast<double>(step) / count;
+    SubStep part;
+    part.per_frame = count;
+    if (settings_.turn_within > 0)
+      part.turned = std::min(1.0, (step / parts + 1) / (settings_.sub_steps * settings_.turn_within));
+    std::vector<Vec3> from;
+    for (const Marker& marker : curve.markers) {
+      from.push_back(marker.position);
+      part.here.push_back(toughness(marker.position));
+      varied_ = varied_ || !part.here.back().gradient.isZero(0);
+    }
+    if (varied_) {
+      part.smooth = smooth_front(begin);
+      track.add(begin, curve, part.smooth, steps.size());
+    }
+    if (!move_markers(curve, steps, toughness, part)) continue;
+    stop_at_faces(curve, from, inside);
+    leave_row(curve, kRowAfter * settings_.spacing);
+  }
+  if (varied_) track.add(1, curve, smooth_front(1), steps.size());
 }
 
 void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
@@ -189,8 +231,9 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
     const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
     if (!hit) continue;
     const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
-    if (hit->part != curve.part && at > way.norm()) continue;  // not there yet
+    if (hit->part != curve.part && at > (1 + kRound) * way.norm()) continue;  // not there yet
     marker.arrested = true;
+    marker.at_own_face = hit->part == curve.part;
     const double stop =
         hit->part == curve.part ? std::max(0.0, at - kFaceDistance * h) : at + kFaceDistance * h;
     marker.position = from[i] + std::min(stop, length) * way.normalized();
@@ -352,9 +395,10 @@ void arrest_touching(CrackSheet& sheet, const std::vector<FrontStep>& steps, con
 }  // namespace
 
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
-                             const ToughnessField& toughness, double target_edge) {
+                             const ToughnessField& toughness, double target_edge, FineFront* led) {
   arrest_touching(sheet, steps, toughness, target_edge);
   const auto motions = fine.advance(sheet, steps, toughness);
+  if (led) led->advance(sheet, steps, toughness, fine);
   for (const NodeId node : fine.stopped_riders())
     if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;
@@ -372,6 +416,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   };
   AdvanceResult result = advance(sheet, motions, target_edge, settings);
   fine.adopt(sheet, result);
+  if (led) led->adopt(sheet, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "conchoid/crack/face_grid.hpp"
 #include "conchoid/crack/front_steps.hpp"
+#include "conchoid/crack/front_track.hpp"
 #include "conchoid/crack/marker_curve.hpp"
 
 namespace conchoid {
@@ -14,9 +15,8 @@ struct FineFrontSettings {
   double resolution = 0;  ///< r̄ [m]
   double spacing = 0;     ///< h [m] of the markers; at most r̄/4 is used
   double turn_within =
-      0.5;  ///< share of a frame over which a marker turns from its last direction to the new one
-  int most_sub_steps =
-      32;  ///< per frame, else ⌈r̄/h⌉: more would only divide a path that bends no more than once per frame
+      0.5;             ///< share of a frame over which a marker turns from its last direction to the new one
+  int sub_steps = 10;  ///< per frame, in which a marker turns; where h is finer each is made in parts
   bool smooth_angles = true;  ///< see FrontSteps::smooth_angles
 };
 
@@ -30,7 +30,7 @@ using ToughnessField = std::function<Toughness(const Vec3&)>;
 /// The visible crack surface: along every coarse front a polyline of markers, about h apart (kept within 0.5
 /// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker; where the
 /// toughness varies it lies on the markers' curve smoothed over r̄, as the boundary elements see nothing
-/// finer. A frame of r̄/c_R is made in sub-steps; a marker moves by
+/// finer. A frame of r̄/c_R is made in sub-steps; in each a marker moves by
 ///     advance_length(K_eff, K_c(x), r̄) / sub-steps,
 /// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
 /// frame, in a direction that turns from its direction in the frame before to the interpolated θ. A marker
@@ -51,6 +51,10 @@ using ToughnessField = std::function<Toughness(const Vec3&)>;
 ///             result = advance(sheet, motions, r̄, {smoothing 0, between fine.between});  fine.adopt(sheet,
 ///             result);
 /// or advance_fronts(), which does just that.
+///
+/// A second fine front of other spacing may be led by the one that moves the coarse nodes: it follows its
+/// coarse nodes and lies against its smoothed curve instead of its own, so that it shows more or less detail
+/// of the same fracture and has no effect on it.
 class FineFront {
  public:
   /// The initial fine sheet: the sheet's triangles, each divided uniformly to edges of about h.
@@ -63,6 +67,10 @@ class FineFront {
   /// markers between two of them. @return the displacements of the coarse nodes
   std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
                                    const ToughnessField& toughness);
+  /// The same for a front that is led by another, which has advanced already. Where only this one met a face
+  /// of its own crack it tries again in the next frame.
+  void advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps, const ToughnessField& toughness,
+               const FineFront& leader);
 
   /// Position of the marker nearest to the fraction s of the way along the markers from coarse node a to b;
   /// none if one of them rides on no marker.
@@ -97,9 +105,23 @@ class FineFront {
     double angle, intensity, height;
   };
 
-  bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness, int step,
-                    int count);
-  std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps) const;
+  /// What holds for all markers in a part of a frame.
+  struct SubStep {
+    int per_frame = 1;            ///< so many make a frame
+    double turned = 1;            ///< share of the way from the old direction to the new one
+    std::vector<Toughness> here;  ///< per marker
+    std::vector<Vec3> smooth;     ///< where it would be without detail; empty where nothing varies
+  };
+
+  std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
+                                   const ToughnessField& toughness, const std::vector<FrontTrack>* leaders);
+  /// One frame of one front. @param inside  per coarse edge  @param leader  may be null
+  void sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
+             const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader);
+  bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
+                    const SubStep& part);
+  std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps,
+                                const std::vector<Vec3>& smooth) const;
   double weaker_side(const Path& path, const Toughness& here, const ToughnessField& toughness) const;
   /// Where a coarse node lies that rides on marker i.
   Vec3 coarse_position(const MarkerCurve& curve, std::size_t i) const;
@@ -116,6 +138,7 @@ class FineFront {
   TriMesh surface_;
   IdVector<TriId, int> birth_;
   std::vector<MarkerCurve> curves_;
+  std::vector<FrontTrack> tracks_;  ///< per curve, of the last frame; empty where nothing varied
   FaceGrid faces_;
   std::size_t known_triangles_ = 0;  ///< of the sheet
   int frame_ = 0;
@@ -124,7 +147,8 @@ class FineFront {
 
 /// One frame of the coarse and the fine front together. Nodes about to touch (touching_nodes) are arrested
 /// first, so that both fronts stop there.
+/// @param led  another fine front of the same sheet, led by `fine`; may be null
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
-                             const ToughnessField& toughness, double target_edge);
+                             const ToughnessField& toughness, double target_edge, FineFront* led = nullptr);
 
 }  // namespace conchoid

@@ -18,30 +18,25 @@ constexpr double kHeight = 1;                                 ///< fall per r̄ 
 }  // namespace
 
 bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
-                             int step, int count) {
-  const double turned =
-      settings_.turn_within > 0 ? std::min(1.0, (step + 1) / (count * settings_.turn_within)) : 1.0;
-  std::vector<Toughness> here;
-  for (const Marker& marker : curve.markers) {
-    here.push_back(toughness(marker.position));
-    varied_ = varied_ || !here.back().gradient.isZero(0);
-  }
-  const std::vector<Relief> relief = varied_ ? relief_of(curve, steps) : std::vector<Relief>(curve.size());
+                             const SubStep& part) {
+  const std::vector<Toughness>& here = part.here;
+  const std::vector<Relief> relief =
+      varied_ ? relief_of(curve, steps, part.smooth) : std::vector<Relief>(curve.size());
   std::vector<bool> moves(curve.size(), false);
   std::vector<double> length(curve.size(), 0.0), turn(curve.size(), 0.0), angle(curve.size(), 0.0);
   std::vector<FrontFrame> frame(curve.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
     Marker& marker = curve.markers[i];
     if (marker.arrested) continue;
-    length[i] =
-        steps.length(marker.parameter, here[i].value / relief[i].intensity, settings_.resolution) / count;
+    length[i] = steps.length(marker.parameter, here[i].value / relief[i].intensity, settings_.resolution) /
+                part.per_frame;
     if (!(length[i] > 0)) continue;
     frame[i] = steps.frame(marker.parameter);
     angle[i] = steps.angle(marker.parameter);
-    if (turned < 1 && !marker.direction_before.isZero(0)) {
+    if (part.turned < 1 && !marker.direction_before.isZero(0)) {
       const double before =
           std::atan2(marker.direction_before.dot(frame[i].e1), marker.direction_before.dot(frame[i].e2));
-      angle[i] = (1 - turned) * before + turned * angle[i];
+      angle[i] = (1 - part.turned) * before + part.turned * angle[i];
     }
     marker.direction = direction_at(frame[i].e1, frame[i].e2, angle[i]);
     if (varied_)
@@ -59,8 +54,8 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
   return std::find(moves.begin(), moves.end(), true) != moves.end();
 }
 
-std::vector<FineFront::Relief> FineFront::relief_of(const MarkerCurve& curve, const FrontSteps& steps) const {
-  const std::vector<Vec3> smooth = smoothed_positions(curve, settings_.resolution);
+std::vector<FineFront::Relief> FineFront::relief_of(const MarkerCurve& curve, const FrontSteps& steps,
+                                                    const std::vector<Vec3>& smooth) const {
   std::vector<Relief> out;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Vec3 off = (curve.markers[i].position - smooth[i]) / settings_.resolution;

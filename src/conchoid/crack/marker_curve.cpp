@@ -13,6 +13,8 @@ namespace {
 constexpr double kSlide = 0.25;  ///< share of the way to the middle of its neighbours a coarse node slides …
 constexpr double kSlideFrom = 0.2;  ///< … where its two edges differ by more than this share of their sum
 
+constexpr double kMostOffset = 0.5;  ///< of a coarse edge: a marker from the coarse node it carries
+
 constexpr double kTie = 1e-6;  ///< of the arc: markers equally near
 
 std::unordered_map<NodeId, std::size_t> places(const std::vector<NodeId>& coarse) {
@@ -64,26 +66,62 @@ double MarkerCurve::spacing(std::size_t i) const {
 
 void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse) {
   const auto place = places(coarse);
-  const auto of = [&](std::size_t i) { return place.at(curve.markers[i].coarse); };
-  const auto carrying = riders(curve);
-  if (carrying.empty()) return;
-  if (curve.closed) {
-    const std::size_t lead = *std::min_element(carrying.begin(), carrying.end(),
-                                               [&](std::size_t x, std::size_t y) { return of(x) < of(y); });
-    std::rotate(curve.markers.begin(), curve.markers.begin() + static_cast<std::ptrdiff_t>(lead),
-                curve.markers.end());
-  }
   const auto stops = riders(curve);
+  if (stops.empty()) return;
+  const std::size_t n = curve.size();
+  const auto period = static_cast<double>(coarse.size());
+  const auto carried = [&](std::size_t r) { return place.at(curve.markers[stops[r]].coarse); };
+  const auto of = [&](std::size_t r) {
+    return static_cast<double>(carried(r)) + curve.markers[stops[r]].offset;
+  };
   for (std::size_t r = 0; r < stops.size(); ++r) {
-    const bool last = r + 1 == stops.size();
-    const std::size_t begin = stops[r], end = last ? curve.size() : stops[r + 1];
-    const auto from = static_cast<double>(of(begin));
-    const auto to = static_cast<double>(last ? coarse.size() + of(stops[0]) : of(end));
+    const std::size_t after = r + 1 < stops.size() ? r + 1 : 0;
+    const bool tail = after == 0 && !curve.closed;
+    const std::size_t count = tail ? n - stops[r] : (stops[after] + n - stops[r] - 1) % n + 1;
+    const double round = carried(after) <= carried(r) && curve.closed ? period : 0.0;
+    const double from = of(r), to = tail ? from : std::max(from, of(after) + round);
     double total = 0, arc = 0;
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t k = 0, i = stops[r]; k < count; ++k, i = curve.next(i))
       total += curve.spacing(i);
-    for (std::size_t i = begin; i < end; arc += curve.spacing(i), ++i)
-      curve.markers[i].parameter = from + (total > 0 ? (to - from) * arc / total : 0.0);
+    for (std::size_t k = 0, i = stops[r]; k < count; ++k, i = curve.next(i)) {
+      double& parameter = curve.markers[i].parameter;
+      parameter = from + (total > 0 ? (to - from) * arc / total : 0.0);
+      if (curve.closed) parameter -= period * std::floor(parameter / period);
+      arc += curve.spacing(i);
+    }
+  }
+  if (!curve.closed) return;
+  const auto first =
+      std::min_element(curve.markers.begin(), curve.markers.end(),
+                       [](const Marker& x, const Marker& y) { return x.parameter < y.parameter; });
+  std::rotate(curve.markers.begin(), first, curve.markers.end());
+}
+
+void attach_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse,
+                   const IdVector<NodeId, Vec3>& positions) {
+  const auto place = places(coarse);
+  const auto off = [&](std::size_t i, const Vec3& x) { return (curve.markers[i].position - x).norm(); };
+  for (std::size_t stop : riders(curve)) {
+    const NodeId node = curve.markers[stop].coarse;
+    const Vec3& x = positions[node];
+    std::size_t i = stop;
+    for (const bool forward : {true, false}) {
+      const auto step = [&](std::size_t at) { return forward ? curve.next(at) : curve.previous(at); };
+      for (std::size_t to = step(i); !curve.markers[to].coarse.valid() && off(to, x) < off(i, x);
+           to = step(to))
+        i = to;
+    }
+    const bool end = !curve.closed && (stop == 0 || stop + 1 == curve.size());
+    if (end) i = stop;
+    curve.markers[stop].coarse = NodeId();
+    curve.markers[i].coarse = node;
+    const Vec3 along = curve.markers[curve.next(i)].position - curve.markers[curve.previous(i)].position;
+    const double arc = (curve.markers[i].position - x).dot(along.normalized());
+    const std::size_t k = place.at(node);
+    const std::size_t other =
+        arc > 0 ? next_index(k, coarse.size(), curve.closed) : previous_index(k, coarse.size(), curve.closed);
+    const double edge = (positions[coarse[other]] - x).norm();
+    curve.markers[i].offset = end || !(edge > 0) ? 0.0 : std::clamp(arc / edge, -kMostOffset, kMostOffset);
   }
 }
 

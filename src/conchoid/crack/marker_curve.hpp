@@ -15,8 +15,10 @@ struct Marker {
   Vec3 direction_before = Vec3::Zero();  ///< of the last sub-step of the frame before
   bool moved = false;                    ///< in this frame
   NodeId coarse;                         ///< the coarse front node that rides on it; else invalid
-  bool arrested = false;                 ///< it has run into the face of a crack
+  bool arrested = false;                 ///< it has run into the face of a crack …
+  bool at_own_face = false;              ///< … its own
   double parameter = 0;  ///< k + s: fraction s of the way from coarse node k of its front to the next
+  double offset = 0;  ///< of the one that carries a coarse node: how far it stands beyond it, in parameters
 };
 
 /// The markers along one coarse front, in the order of its nodes.
@@ -32,9 +34,16 @@ struct MarkerCurve {
   double spacing(std::size_t i) const;
 };
 
-/// Gives each marker its place between the coarse nodes that ride before and after it, by arc length; a ring
-/// is turned to start at its first coarse node. @param coarse  nodes of the coarse front
+/// Gives each marker its place between the coarse nodes that ride before and after it, by arc length; on a
+/// ring from 0 on, which it is turned to start at. @param coarse  nodes of the coarse front
 void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse);
+
+/// Coarse nodes that have moved on their own ride on to the markers nearest to them, of those next to the one
+/// they rode on, and the markers learn how far off they are (offset).
+/// @param coarse     nodes of the coarse front
+/// @param positions  of the sheet's nodes
+void attach_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse,
+                   const IdVector<NodeId, Vec3>& positions);
 
 /// Point of the curve at a parameter (of `coarse_nodes` coarse nodes), for coarse nodes that ride on no
 /// marker.

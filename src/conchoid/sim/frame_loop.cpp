@@ -27,6 +27,8 @@ constexpr double kLargestOpening = 3;
 constexpr double kAlongFace = 0.5;        // the same at the face of a crack
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
+constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
+constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
 
 CrackSheet initial_sheet(const BodySetup& setup) {
   CrackSheet sheet;
@@ -166,11 +168,14 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
       predictor_(make_predictor(scene, options, bem_, setup_)),
       history_(scene.material, setup_.toughness, setup_.crack_edge),
       crack_{initial_sheet(setup_), {}, {}, {}, {}, {}},
-      fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = setup_.surface_edge}),
+      fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = kDrivingSpacing * setup_.crack_edge}),
       rayleigh_speed_(rayleigh_speed(
           m_, scene.material.density,
           scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
   crack_.cut = whole_surface(setup_.surface);
+  if (std::abs(setup_.surface_edge / setup_.crack_edge / kDrivingSpacing - 1) > kSameSpacing)
+    visible_.emplace(crack_.sheet,
+                     FineFrontSettings{.resolution = setup_.crack_edge, .spacing = setup_.surface_edge});
   toughness_ = [this, K_c = scene.material.toughness](const Vec3& x) {
     const FieldSample factor = setup_.toughness.at(x);
     return Toughness{K_c * factor.value, K_c * factor.gradient};
@@ -201,6 +206,7 @@ void FrameLoop::start_cracks(RunResult& result) {
     ++result.cracks;
   }
   fine_.append_parts(crack_.sheet);
+  if (visible_) visible_->append_parts(crack_.sheet);
 }
 
 // What every point is about to do, its line in front.csv, and the samples that pair it with the frame before.
@@ -342,7 +348,8 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine_.surface().triangle_count() + crack_.sheet.mesh.triangle_count();
   if (!steps.empty())
-    advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge);
+    advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge,
+                   visible_ ? &*visible_ : nullptr);
   if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
   record.fracture_seconds = clock.lap();
   record.crack_triangles = crack_.trimmed.triangle_count();
@@ -384,11 +391,11 @@ void FrameLoop::run(RunResult& result, RunFolder* folder, Checkpoint* checkpoint
     if (progress) progress->advance();
   }
   if (doc.stop == "frame-limit" && !setup_.infinite() && separates(crack_.cut)) doc.stop = "separated";
-  fine_.finish();
+  (visible_ ? *visible_ : fine_).finish();
 }
 
 std::vector<TriMesh> FrameLoop::fine_sheets() const {
-  const TriMesh& all = fine_.surface();
+  const TriMesh& all = (visible_ ? *visible_ : fine_).surface();
   const std::vector<int> part = connected_parts(all);
   std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
   std::vector<NodeId> moved(all.node_count());

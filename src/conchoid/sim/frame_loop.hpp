@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 #include "conchoid/crack/fine_front.hpp"
 #include "conchoid/sim/checkpoint.hpp"
@@ -44,7 +45,8 @@ class FrameLoop {
   std::unique_ptr<OpeningSource> predictor_;  // none: bem_ itself
   FrontHistory history_;
   CrackState crack_;
-  FineFront fine_;
+  FineFront fine_;                    // moves the cracks, h = r̄/10 whatever the scene asks to see
+  std::optional<FineFront> visible_;  // none: fine_ itself
   ToughnessField toughness_;
   double rayleigh_speed_;
   double largest_intensity_ = 0;  // K_eff of the frame
