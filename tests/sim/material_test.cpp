@@ -283,8 +283,9 @@ std::string front_text(const RunResult& result) {
 // Twice as fine: the same surface well within the old spacing, from the same boundary elements, bit for bit.
 // What it costs: bench/run_bench.cpp, surface_refined.
 TEST(Material, RefiningTheSurfaceRefinesTheSurfaceOnly) {
-  for (const std::string& field :
-       {std::string(), noise_text(0.2, 0.2, 3), noise_text(0.2, 0.3), layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
+  const std::string grains = "[material.toughness_field]\nkind = 'grains'\nsize = 0.2\nweakening = 0.5\n";
+  for (const std::string& field : {std::string(), grains, noise_text(0.2, 0.2, 3), noise_text(0.2, 0.3),
+                                   layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
     const RunResult coarse = run(cube_text(field, 0.02)), fine = run(cube_text(field, 0.01));
     EXPECT_EQ(coarse.document.stop, "separated");
     EXPECT_EQ(front_text(coarse), front_text(fine));
