@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conchoid/crack/advance_fronts.hpp"
 #include "conchoid/crack/fine_front.hpp"
 #include "conchoid/crack/stress_intensity.hpp"
 #include "crack/crack_samples.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "conchoid/crack/advance_fronts.hpp"
 #include "conchoid/crack/fine_front.hpp"
 #include "crack_samples.hpp"
 

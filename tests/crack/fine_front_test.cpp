@@ -1,4 +1,5 @@
 #include "conchoid/crack/fine_front.hpp"
+#include "conchoid/crack/advance_fronts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "conchoid/crack/advance_fronts.hpp"
 #include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/fine_front.hpp"
 #include "crack_samples.hpp"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "conchoid/crack/advance_fronts.hpp"
 #include "conchoid/crack/fine_front.hpp"
 #include "conchoid/crack/front_track.hpp"
 #include "conchoid/crack/marker_curve.hpp"

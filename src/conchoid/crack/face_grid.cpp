@@ -54,6 +54,10 @@ void FaceGrid::take(const TriMesh& mesh, TriId t, int part) {
   part_.push_back(part);
 }
 
+void FaceGrid::join(int part, int with) {
+  std::replace(part_.begin(), part_.end(), with, part);
+}
+
 std::optional<FaceGrid::Hit> FaceGrid::first_hit(const TriMesh& mesh, const Vec3& from, const Vec3& to,
                                                  const std::vector<NodeId>& own) const {
   std::optional<Hit> best;
@@ -70,8 +74,7 @@ std::optional<FaceGrid::Hit> FaceGrid::first_hit(const TriMesh& mesh, const Vec3
             continue;
           const auto s = crossing(from, to, mesh.triangle(t));
           if (!s) continue;
-          const bool better =
-              !best || *s < best->fraction || (*s == best->fraction && t < best->triangle);
+          const bool better = !best || *s < best->fraction || (*s == best->fraction && t < best->triangle);
           if (better) best = Hit{t, part_[t.index()], *s};
         }
       }

@@ -18,6 +18,9 @@ class FaceGrid {
   /// Takes in the next triangle of the mesh. @param part  it belongs to
   void take(const TriMesh& mesh, TriId t, int part);
 
+  /// Two parts become one.
+  void join(int part, int with);
+
   struct Hit {
     TriId triangle;
     int part;

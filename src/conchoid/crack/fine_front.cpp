@@ -1,7 +1,10 @@
 #include "conchoid/crack/fine_front.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -10,6 +13,7 @@
 #include "conchoid/crack/front_smoothing.hpp"
 #include "conchoid/crack/strip.hpp"
 #include "conchoid/crack/subdivide.hpp"
+#include "conchoid/crack/touching.hpp"
 
 namespace conchoid {
 
@@ -120,13 +124,19 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   const int parts =
       std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostDivisions);
   const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
-  const std::vector<int> part = connected_parts(surface_);
+  const std::vector<int> connected = connected_parts(surface_);
+  std::map<int, int> part;  // numbers that no earlier part has
+  const auto part_of = [&](NodeId node) {
+    const auto [at, added] = part.try_emplace(connected[node.index()], next_part_);
+    next_part_ += added ? 1 : 0;
+    return at->second;
+  };
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
     curves_.push_back(initial_curve(surface_, fine, sheet.fronts[f]));
-    curves_.back().part = part[curves_.back().markers.front().node.index()];
+    curves_.back().part = part_of(curves_.back().markers.front().node);
   }
   for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
-    faces_.take(surface_, TriId(t), part[surface_.corners[TriId(t)][0].index()]);
+    faces_.take(surface_, TriId(t), part_of(surface_.corners[TriId(t)][0]));
   birth_.resize(surface_.triangle_count(), sheet.frame);
   known_triangles_ = sheet.mesh.triangle_count();
 }
@@ -372,52 +382,6 @@ void FineFront::close(MarkerCurve& curve) {
 void FineFront::finish() {
   for (MarkerCurve& curve : curves_)
     leave_row(curve, kLastRowAfter * settings_.spacing);
-}
-
-namespace {
-
-/// Stops nodes that are going to touch before the markers set out, so that both fronts stop at the same
-/// place.
-void arrest_touching(CrackSheet& sheet, const std::vector<FrontStep>& steps, const ToughnessField& toughness,
-                     double target_edge) {
-  std::vector<FrontMotion> expected;
-  for (const FrontStep& step : steps) {
-    if (sheet.state[step.node] == FrontState::arrested) continue;
-    const double length =
-        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]).value, target_edge);
-    if (length > 0)
-      expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
-  }
-  for (NodeId node : touching_nodes(sheet, expected, target_edge))
-    sheet.state[node] = FrontState::arrested;
-}
-
-}  // namespace
-
-AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
-                             const ToughnessField& toughness, double target_edge, FineFront* led) {
-  arrest_touching(sheet, steps, toughness, target_edge);
-  const auto motions = fine.advance(sheet, steps, toughness);
-  if (led) led->advance(sheet, steps, toughness, fine);
-  for (const NodeId node : fine.stopped_riders())
-    if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
-  AdvanceSettings settings;
-  settings.smoothing = 0;
-  std::unordered_map<NodeId, Vec3> displacement;
-  for (const FrontMotion& motion : motions)
-    displacement.emplace(motion.node, motion.displacement);
-  const auto successor = [&](NodeId n) {
-    const auto at = displacement.find(n);
-    return at == displacement.end() ? sheet.mesh.positions[n] : Vec3(sheet.mesh.positions[n] + at->second);
-  };
-  settings.between = [&](NodeId a, NodeId b, double s) {
-    const auto marker = fine.between(a, b, s);
-    return marker ? *marker : Vec3((1 - s) * successor(a) + s * successor(b));
-  };
-  AdvanceResult result = advance(sheet, motions, target_edge, settings);
-  fine.adopt(sheet, result);
-  if (led) led->adopt(sheet, result);
-  return result;
 }
 
 }  // namespace conchoid

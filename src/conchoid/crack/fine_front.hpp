@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conchoid/crack/face_grid.hpp"
+#include "conchoid/crack/front_joint.hpp"
 #include "conchoid/crack/front_steps.hpp"
 #include "conchoid/crack/front_track.hpp"
 #include "conchoid/crack/marker_curve.hpp"
@@ -72,6 +73,10 @@ class FineFront {
   void advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps, const ToughnessField& toughness,
                const FineFront& leader);
 
+  /// Breaks the ligament between two stretches of fronts, as join_fronts() has just done in the sheet, and
+  /// joins what is left of their markers' curves.
+  void join(const CrackSheet& sheet, const FrontJoint& joint, const JoinedFronts& joined);
+
   /// Position of the marker nearest to the fraction s of the way along the markers from coarse node a to b;
   /// none if one of them rides on no marker.
   std::optional<Vec3> between(NodeId a, NodeId b, double s) const;
@@ -118,6 +123,11 @@ class FineFront {
   /// One frame of one front. @param inside  per coarse edge  @param leader  may be null
   void sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
              const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader);
+  /// The nodes between two stretches that have been joined, at their ends (see FrontJoint).
+  struct JointEnds {
+    std::vector<NodeId> at_first, at_second;  ///< from first.front() on, from second.front() on
+  };
+  JointEnds fill_ligament(const std::vector<NodeId>& first, const std::vector<NodeId>& second, int part);
   bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
                     const SubStep& part);
   std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps,
@@ -141,14 +151,9 @@ class FineFront {
   std::vector<FrontTrack> tracks_;  ///< per curve, of the last frame; empty where nothing varied
   FaceGrid faces_;
   std::size_t known_triangles_ = 0;  ///< of the sheet
+  int next_part_ = 0;
   int frame_ = 0;
   bool varied_ = false;  ///< the toughness does
 };
-
-/// One frame of the coarse and the fine front together. Nodes about to touch (touching_nodes) are arrested
-/// first, so that both fronts stop there.
-/// @param led  another fine front of the same sheet, led by `fine`; may be null
-AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
-                             const ToughnessField& toughness, double target_edge, FineFront* led = nullptr);
 
 }  // namespace conchoid

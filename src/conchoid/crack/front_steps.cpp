@@ -94,8 +94,10 @@ double FrontSteps::intensity(double parameter) const {
 
 double FrontSteps::length(double parameter, double toughness, double resolution) const {
   const auto [a, b, s] = place(parameter);
-  return (1 - s) * advance_length(steps_[a].intensity, toughness, resolution) +
-         s * advance_length(steps_[b].intensity, toughness, resolution);
+  const auto of = [&](const FrontStep& step) {
+    return std::min(step.most, advance_length(step.intensity, toughness, resolution));
+  };
+  return (1 - s) * of(steps_[a]) + s * of(steps_[b]);
 }
 
 }  // namespace conchoid

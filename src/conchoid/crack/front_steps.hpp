@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct FrontStep {
   FrontFrame frame;
   double angle = 0;      ///< θ from e2 towards e1 [rad]
   double intensity = 0;  ///< K_eff [Pa·√m]; against the toughness it gives the length; 0: stays
+  double most = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
 };
 
 /// Steps for all nodes that move: those given, and for nodes outside of the body next to one of them the mean

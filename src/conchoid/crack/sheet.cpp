@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/front_frames.hpp"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kCloseRadius = 0.3;      ///< × target edge: smaller rings close
 constexpr double kSmoothingAcross = 0.2;  ///< share of the smoothing that acts across the front
 constexpr double kTie = 1e-6;
+constexpr double kAlike =
+    0.1;  ///< cosine between mean normals below which two cracks stand across each other
 
 /// Motion per node of the sheet.
 class Motions {
@@ -196,6 +199,28 @@ NodeId append_part(CrackSheet& sheet, const TriMesh& part, const std::vector<Edg
   return first;
 }
 
+TriMesh oriented_like(const CrackSheet& sheet, TriMesh part) {
+  const std::vector<int> connected = connected_parts(sheet.mesh);
+  double least = std::numeric_limits<double>::infinity();
+  int nearest = -1;
+  for (std::size_t i = 0; i < sheet.mesh.node_count(); ++i)
+    for (const Vec3& x : part.positions)
+      if (const double d = (sheet.mesh.positions[NodeId(i)] - x).norm(); d < least) {
+        least = d;
+        nearest = connected[i];
+      }
+  Vec3 theirs = Vec3::Zero(), own = Vec3::Zero();
+  for (std::size_t t = 0; t < sheet.mesh.triangle_count(); ++t)
+    if (connected[sheet.mesh.corners[TriId(t)][0].index()] == nearest)
+      theirs += area_vector(sheet.mesh, TriId(t));
+  for (std::size_t t = 0; t < part.triangle_count(); ++t)
+    own += area_vector(part, TriId(t));
+  if (own.dot(theirs) < -kAlike * own.norm() * theirs.norm())
+    for (auto& c : part.corners)
+      std::swap(c[1], c[2]);
+  return part;
+}
+
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front) {
   return front_frames(sheet.mesh, node_area_vectors(sheet.mesh), front.nodes, front.closed,
                       sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets);
@@ -205,7 +230,7 @@ AdvanceResult advance(CrackSheet& sheet, const std::vector<FrontMotion>& request
                       const AdvanceSettings& settings) {
   Motions motions(sheet, requested);
   AdvanceResult result;
-  result.arrested = touching_nodes(sheet, requested, target_edge);
+  if (settings.stop_touching) result.arrested = touching_nodes(sheet, requested, target_edge);
   for (NodeId node : result.arrested) {
     motions.stop(node);
     sheet.state[node] = FrontState::arrested;

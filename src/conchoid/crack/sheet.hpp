@@ -39,6 +39,11 @@ struct CrackSheet {
 /// @return id of its first node: node k of the part becomes node first + k, likewise the triangles
 NodeId append_part(CrackSheet& sheet, const TriMesh& part, const std::vector<Edge>& mouth = {});
 
+/// The part turned so that its normals, in the mean, point to the side to which those of the sheet's part
+/// next to it point: only cracks oriented alike can grow together (find_joint). Across each other, or where
+/// the sheet is empty, it stays as it is.
+TriMesh oriented_like(const CrackSheet& sheet, TriMesh part);
+
 /// Frames at the nodes of one front of the sheet; as long as it has not grown, with normals carried on to the
 /// front.
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front);
@@ -48,9 +53,10 @@ struct FrontMotion {
   Vec3 displacement;  ///< [m]
 };
 
-/// Nodes that would come closer than 0.3 target_edge to another front, or to another part of their own front,
-/// that faces them (their e2 point against each other), on their way or at its end. Both sides are listed,
-/// sorted. Parts of a front fewer than three edges apart do not count.
+/// Nodes that would come closer than 0.3 target_edge (0.7 where the sheets are oriented alike) to another
+/// front, or to another part of their own front, that faces them (their e2 point against each other), on
+/// their way or at its end. Both sides are listed, sorted. Parts of a front fewer than three edges apart do
+/// not count.
 std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
                                    double target_edge);
 
@@ -76,6 +82,7 @@ struct AdvanceSettings {
   /// Share of the way to the middle of its neighbours along the front (and a fifth of it across) that a new
   /// node is drawn. 0: none.
   double smoothing = 0.25;
+  bool stop_touching = true;    ///< nodes that touch (touching_nodes) are not moved and become arrested
   double split_above = 1.4;     ///< × target_edge
   double collapse_below = 0.2;  ///< × target_edge
   /// Position of inserted and merged nodes between two old nodes; see StripSettings. Empty: straight.
@@ -83,9 +90,8 @@ struct AdvanceSettings {
 };
 
 /// Moves front nodes and appends the strip between the old and the new front (rules: strip.hpp); nodes
-/// without a motion stay. Simple handling of contact: a node that touches (touching_nodes) is not moved and
-/// becomes arrested. A ring that shrinks, all of its nodes moving, until it fits in a circle of radius 0.3
-/// target_edge closes and its front vanishes.
+/// without a motion stay. A ring that shrinks, all of its nodes moving, until it fits in a circle of radius
+/// 0.3 target_edge closes and its front vanishes.
 /// @throws InputError  a motion of a node that is on no front, or not finite
 AdvanceResult advance(CrackSheet& sheet, const std::vector<FrontMotion>& motions, double target_edge,
                       const AdvanceSettings& settings = {});

@@ -1,35 +1,27 @@
+#include "conchoid/crack/touching.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "conchoid/crack/front_frames.hpp"
-#include "conchoid/crack/sheet.hpp"
 
 namespace conchoid {
 
 namespace {
 
 constexpr double kTouchDistance = 0.3;  ///< × target edge
+constexpr double kMeetDistance = 0.7;   ///< × target edge: where the sheets are oriented alike and …
+constexpr double kOffset = 0.45;  ///< × target edge: … no farther apart across; else they pass each other
+constexpr double kCloseDistance = 1.0;  ///< × target edge: where they are one crack already
+constexpr double kAlike = 0;            ///< cosine between their normals
 constexpr double kCloseRadius = 0.3;    ///< × target edge: rings within it close instead (sheet.cpp)
 constexpr std::size_t kNearAlong =
     3;  ///< parts of one front fewer edges apart are neighbours, not opposite each other
 
-/// Least distance of the segments pq and ab (Ericson, Real-Time Collision Detection, 5.1.9), made safe for
-/// points.
-double segment_distance(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
-  const Vec3 u = q - p, v = b - a, w = p - a;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
-  const double det = uu * vv - uv * uv;
-  double s = det > 1e-14 * uu * vv ? std::clamp((uv * vw - uw * vv) / det, 0.0, 1.0) : 0.0;
-  double t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
-  s = uu > 0 ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0.0;
-  t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
-  return (w + s * u - t * v).norm();
-}
-
 /// A front node, where it goes, and its forward direction.
 struct Mover {
   NodeId node;
-  Vec3 from, to, forward;
+  Vec3 from, to, forward, normal;
   bool moves = false;
   FrontState state = FrontState::active;
 };
@@ -53,8 +45,8 @@ std::vector<MovingFront> moving_fronts(const CrackSheet& sheet, const std::vecto
       const auto at = std::lower_bound(sorted.begin(), sorted.end(), front.nodes[i],
                                        [](const FrontMotion& m, NodeId n) { return m.node < n; });
       const bool moves = at != sorted.end() && at->node == front.nodes[i];
-      moving.nodes.push_back({front.nodes[i], x, moves ? Vec3(x + at->displacement) : x, frames[i].e2, moves,
-                              sheet.state[front.nodes[i]]});
+      moving.nodes.push_back({front.nodes[i], x, moves ? Vec3(x + at->displacement) : x, frames[i].e2,
+                              frames[i].e1, moves, sheet.state[front.nodes[i]]});
     }
   }
   return fronts;
@@ -79,7 +71,14 @@ bool closes(const MovingFront& front, double target_edge) {
   });
 }
 
-bool touches(const Mover& m, const Mover& a, const Mover& b, double distance) {
+bool touches(const Mover& m, const Mover& a, const Mover& b, bool one_front, double target_edge) {
+  double distance = kTouchDistance * target_edge;
+  if (std::min(m.normal.dot(a.normal), m.normal.dot(b.normal)) > kAlike) {
+    const Vec3 normal = (2 * m.normal + a.normal + b.normal).normalized();
+    const double across = std::abs((0.5 * (a.from + b.from) - m.from).dot(normal));
+    if (!one_front && across > kOffset * target_edge) return false;
+    distance = (one_front ? kCloseDistance : kMeetDistance) * target_edge;
+  }
   const Vec3 other_forward = a.forward + b.forward;
   const Vec3 step = m.to - m.from;
   if (m.forward.dot(other_forward) >= 0) return false;
@@ -98,11 +97,21 @@ bool within_reach(const Mover& m, const Mover& a, const Mover& b, double distanc
 
 }  // namespace
 
-std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
-                                   double target_edge) {
+double segment_distance(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  const Vec3 u = q - p, v = b - a, w = p - a;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double det = uu * vv - uv * uv;
+  double s = det > 1e-14 * uu * vv ? std::clamp((uv * vw - uw * vv) / det, 0.0, 1.0) : 0.0;
+  double t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
+  s = uu > 0 ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0.0;
+  t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
+  return (w + s * u - t * v).norm();
+}
+
+std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
+                                      double target_edge) {
   const auto fronts = moving_fronts(sheet, motions);
-  const double distance = kTouchDistance * target_edge;
-  std::vector<NodeId> touching;
+  std::vector<FrontTouch> touches_found;
   for (std::size_t f = 0; f < fronts.size(); ++f) {
     const bool closing = closes(fronts[f], target_edge);
     for (std::size_t i = 0; i < fronts[f].nodes.size(); ++i) {
@@ -115,12 +124,27 @@ std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<Fr
           const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next_index(e, n, fronts[g].closed)];
           if (a.state == FrontState::outside && b.state == FrontState::outside) continue;
           if (f == g && neighbours_on_front(i, e, n, fronts[g].closed)) continue;
-          if (!within_reach(m, a, b, distance) || !touches(m, a, b, distance)) continue;
-          for (const Mover* each : {&m, &a, &b})
-            if (each->state == FrontState::active) touching.push_back(each->node);
+          if (!within_reach(m, a, b, kCloseDistance * target_edge) || !touches(m, a, b, f == g, target_edge))
+            continue;
+          touches_found.push_back({f, i, g, e, segment_distance(m.from, m.from, a.from, b.from)});
         }
       }
     }
+  }
+  return touches_found;
+}
+
+std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
+                                   double target_edge) {
+  std::vector<NodeId> touching;
+  const auto take = [&](const SheetFront& front, std::size_t i) {
+    if (sheet.state[front.nodes[i]] == FrontState::active) touching.push_back(front.nodes[i]);
+  };
+  for (const FrontTouch& touch : front_touches(sheet, motions, target_edge)) {
+    const SheetFront& other = sheet.fronts[touch.other];
+    take(sheet.fronts[touch.front], touch.index);
+    take(other, touch.edge);
+    take(other, next_index(touch.edge, other.nodes.size(), other.closed));
   }
   std::sort(touching.begin(), touching.end());
   touching.erase(std::unique(touching.begin(), touching.end()), touching.end());

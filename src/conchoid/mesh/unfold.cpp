@@ -106,7 +106,8 @@ TriMesh unfolded(TriMesh sheet) {
 }
 
 TriMesh unfolded_part(const TriMesh& sheet) {
-  return embedded_part(unfolded(embedded_part(sheet)));
+  // Small folds first: cut out they would be holes.
+  return embedded_part(unfolded(embedded_part(unfolded(manifold_part(sheet)))));
 }
 
 }  // namespace conchoid

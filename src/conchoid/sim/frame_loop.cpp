@@ -1,4 +1,5 @@
 #include "conchoid/sim/frame_loop.hpp"
+#include "conchoid/crack/advance_fronts.hpp"
 
 #include <fmt/core.h>
 
@@ -33,7 +34,7 @@ constexpr double kSameSpacing = 1e-6;         // spacings that differ by less ar
 CrackSheet initial_sheet(const BodySetup& setup) {
   CrackSheet sheet;
   for (const TriMesh& crack : setup.cracks)
-    append_part(sheet, crack);
+    append_part(sheet, oriented_like(sheet, crack));
   return sheet;
 }
 
@@ -201,7 +202,7 @@ void FrameLoop::start_cracks(RunResult& result) {
     candidates.insert(candidates.end(), on_surface.begin(), on_surface.end());
   }
   for (const CrackSite& site : choose_sites(candidates, taken, settings, fronts)) {
-    append_part(crack_.sheet, disc_sheet(site));
+    append_part(crack_.sheet, oriented_like(crack_.sheet, disc_sheet(site)));
     ++started_;
     ++result.cracks;
   }
