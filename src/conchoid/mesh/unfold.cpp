@@ -34,6 +34,8 @@ struct Stars {
 };
 
 constexpr double steepest = 0.25;  // cosine
+constexpr int kRounds = 40;
+constexpr int kRoundsPerRing = 8;
 
 bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
   if (star.size() < 2) return false;
@@ -87,20 +89,26 @@ Vec3 common_direction(const std::vector<Vec3>& vectors) {
 
 TriMesh unfolded(TriMesh sheet) {
   const Stars stars(sheet);
-  constexpr int rounds = 30;
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<std::pair<NodeId, Vec3>> moves;
-    for (std::size_t i = 0; i < sheet.node_count(); ++i) {
-      const NodeId n(i);
-      if (stars.neighbours[n].empty() || !is_folded(sheet, stars.triangles[n])) continue;
-      Vec3 middle = Vec3::Zero();
-      for (const NodeId m : stars.neighbours[n])
-        middle += sheet.positions[m];
-      moves.emplace_back(n, middle / static_cast<double>(stars.neighbours[n].size()));
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<NodeId> folded;
+    for (std::size_t i = 0; i < sheet.node_count(); ++i)
+      if (!stars.neighbours[NodeId(i)].empty() && is_folded(sheet, stars.triangles[NodeId(i)]))
+        folded.emplace_back(i);
+    if (folded.empty()) break;
+    // What stays folded in the middle of its neighbours needs them to move as well.
+    for (int ring = 0; ring < round / kRoundsPerRing; ++ring) {
+      const std::vector<NodeId> inner = folded;
+      for (const NodeId n : inner)
+        folded.insert(folded.end(), stars.neighbours[n].begin(), stars.neighbours[n].end());
+      std::sort(folded.begin(), folded.end());
+      folded.erase(std::unique(folded.begin(), folded.end()), folded.end());
     }
-    if (moves.empty()) break;
-    for (const auto& [n, to] : moves)
-      sheet.positions[n] = to;
+    std::vector<Vec3> middle(folded.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < folded.size(); ++k)
+      for (const NodeId m : stars.neighbours[folded[k]])
+        middle[k] += sheet.positions[m] / static_cast<double>(stars.neighbours[folded[k]].size());
+    for (std::size_t k = 0; k < folded.size(); ++k)
+      sheet.positions[folded[k]] = middle[k];
   }
   return sheet;
 }

@@ -13,7 +13,8 @@ Vec3 common_direction(const std::vector<Vec3>& vectors);
 
 /// The sheet with its sharp folds smoothed out: a node whose triangles have no side in common from which all
 /// are seen under less than about 75° goes to the middle of its neighbours (on the boundary: of those along
-/// it), together with others, until there is none or nothing is gained. All other nodes stay bit for bit.
+/// it), together with others, until there is none; after some rounds its neighbours go along, then theirs.
+/// All other nodes stay bit for bit.
 TriMesh unfolded(TriMesh sheet);
 
 /// The embedded part (manifold_part.hpp) of a sheet without sharp folds: fit to cut a body.
