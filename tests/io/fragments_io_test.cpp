@@ -134,6 +134,46 @@ TEST(CornerNormals, BoxStaysSharpAndSphereLikeFanIsSmooth) {
   EXPECT_NEAR(split[0][1].x(), unit_normal(roof, TriId(0)).x(), 1e-14);  // unless they differ in kind
 }
 
+TEST(NodeNormals, EqualCornersKeepTheirBitsOthersAreAveragedByArea) {
+  const TriMesh cube = box({0, 0, 0}, {1, 2, 4});
+  std::vector<std::array<Vec3, 3>> radial(12);
+  const Vec3 center(0.5, 1, 2);
+  for (std::size_t t = 0; t < 12; ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      radial[t][k] = (cube.positions[cube.corners[TriId(t)][k]] - center).normalized();
+  const auto same = node_normals(cube, {}, radial);
+  const auto mean = node_normals(cube, {}, corner_normals(cube, {}));
+  for (std::size_t n = 0; n < 8; ++n) {
+    const Vec3 out = cube.positions[NodeId(n)] - center;
+    EXPECT_EQ(same[NodeId(n)], Vec3(out.normalized()));
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t t = 0; t < 12; ++t)
+      for (const NodeId c : cube.corners[TriId(t)])
+        if (c == NodeId(n)) sum += area_vector(cube, TriId(t));
+    EXPECT_NEAR((mean[NodeId(n)] - sum.normalized()).norm(), 0, 1e-15);
+  }
+}
+
+TEST(NodeNormals, OriginalFacesCountAloneWhereANodeHasAny) {
+  TriMesh flat = sheet(2, 0);
+  std::vector<std::array<Vec3, 3>> normal;
+  std::vector<FaceKind> kind;
+  for (std::size_t t = 0; t < flat.triangle_count(); ++t) {
+    kind.push_back(t < 4 ? FaceKind::original : FaceKind::fracture);  // the lower half of the square
+    normal.emplace_back().fill(t < 4 ? Vec3::UnitX() : Vec3::UnitY());
+  }
+  flat.positions.add({9, 9, 9});  // of no triangle
+  const auto found = node_normals(flat, kind, normal);
+  for (std::size_t n = 0; n < 9; ++n)
+    EXPECT_EQ(found[NodeId(n)], flat.positions[NodeId(n)].y() < 0.1 ? Vec3::UnitX() : Vec3::UnitY());
+  EXPECT_EQ(found[NodeId(9)], Vec3::UnitZ());
+
+  normal[1].fill(Vec3::Zero());  // corners without a normal do not count
+  EXPECT_EQ(node_normals(flat, kind, normal)[NodeId(0)], Vec3::UnitX());
+  normal[1].fill(-Vec3::UnitX());  // opposite faces of one size: one of the two, not a direction of round-off
+  EXPECT_EQ(node_normals(flat, kind, normal)[NodeId(0)], Vec3::UnitX());
+}
+
 TEST(FragmentPly, KeepsNodesKindsAndSources) {
   const ScratchFolder folder;
   const Fragment lower = broken_cube(0.1)[0];
@@ -226,6 +266,26 @@ TEST(FragmentPly, MaterialsAndTextureCoordinatesReadBack) {
       EXPECT_NEAR((a.uv[t][k] - piece.attributes.uv[t][k]).norm(), 0, 1e-7);
   }
   EXPECT_EQ(read_ply(folder / "f.ply").face_kind, piece.face_kind);
+}
+
+// One normal per node, and no node twice: the file as it stands is closed.
+TEST(FragmentPly, NodesAreSharedAndHaveOutwardUnitNormals) {
+  const ScratchFolder folder;
+  for (const Fragment& piece : painted_cube(0.1)) {
+    write_fragment_ply(folder / "f.ply", piece);
+    const auto [mesh, a] = read_surface(folder / "f.ply");
+    EXPECT_EQ(mesh.positions, piece.mesh.positions);
+    ASSERT_EQ(a.normal.size(), 12u);
+    const auto wanted = node_normals(piece.mesh, piece.face_kind, piece.attributes.normal);
+    for (std::size_t t = 0; t < 12; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR((a.normal[t][k] - wanted[mesh.corners[TriId(t)][k]]).norm(), 0, 1e-7);
+        EXPECT_NEAR(a.normal[t][k].norm(), 1, 1e-6);
+        if (piece.face_kind[t] == FaceKind::original) {
+          EXPECT_GT(a.normal[t][k].dot(unit_normal(mesh, TriId(t))), 0.1);
+        }
+      }
+  }
 }
 
 TEST(FragmentsGlb, EveryMaterialIsAPrimitiveWithTextureCoordinates) {
@@ -322,6 +382,29 @@ TEST(FragmentFiles, AnotherReaderFindsTheSamePieces) {
     const Counts counts = counted(folder / name);
     EXPECT_EQ(counts.materials, (std::set<std::string>{"wood", "steel", "fracture"})) << name;
     EXPECT_EQ(counts.with_uv, 12u) << name;
+  }
+}
+
+TEST(FragmentFiles, AnotherReaderFindsTheNormalsOfThePly) {
+  const ScratchFolder folder;
+  for (const Fragment& piece : painted_cube(0.1)) {
+    write_fragment_ply(folder / "f.ply", piece);
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile((folder / "f.ply").string(), 0);
+    ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+    ASSERT_EQ(scene->mNumMeshes, 1u);
+    const aiMesh& mesh = *scene->mMeshes[0];
+    ASSERT_TRUE(mesh.HasNormals());
+    ASSERT_EQ(mesh.mNumFaces, 12u);
+    const auto normal = node_normals(piece.mesh, piece.face_kind, piece.attributes.normal);
+    for (unsigned t = 0; t < 12; ++t)
+      for (unsigned k = 0; k < 3; ++k) {
+        const NodeId node = piece.mesh.corners[TriId(std::size_t(t))][k];
+        const unsigned v = mesh.mFaces[t].mIndices[k];
+        const aiVector3D &x = mesh.mVertices[v], &n = mesh.mNormals[v];
+        EXPECT_NEAR((Vec3(x.x, x.y, x.z) - piece.mesh.positions[node]).norm(), 0, 1e-7);
+        EXPECT_NEAR((Vec3(n.x, n.y, n.z) - normal[node]).norm(), 0, 1e-6);
+      }
   }
 }
 

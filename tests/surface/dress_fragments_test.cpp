@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
+#include "conchoid/surface/corner_normals.hpp"
 #include "mesh/cut_shapes.hpp"
 
 namespace conchoid {
@@ -155,6 +158,53 @@ TEST(DressFragments, FractureIsSmoothAndSharpAtItsRim) {
           EXPECT_GT(std::abs(n.dot(exact)), 0.998);  // within 4°: the facets bend by up to 3°
         }
       }
+}
+
+// A smooth body: what it says about its own nodes stays up to the rim, the break has the normals of its
+// sheet.
+TEST(NodeNormals, NodesOfTheBodyKeepItsNormalsAndTheBreakHasItsOwn) {
+  const TriMesh body = icosphere(3);
+  SurfaceAttributes given;
+  for (std::size_t t = 0; t < body.triangle_count(); ++t) {
+    given.normal.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      given.normal.back()[k] = soft_normal(body.positions[body.corners[TriId(t)][k]]);
+  }
+  const auto dip = [](double u, double v) { return 0.2 * u * u - 0.1 * v; };
+  auto pieces = cut_into_fragments(
+      body, {sheet(-1.3, 1.3, -1.3, 1.3, 30, 30, [&](double u, double v) { return Vec3(u, v, dip(u, v)); })},
+      {});
+  ASSERT_EQ(pieces.size(), 2u);
+  dress_fragments(pieces, body, given, {});
+  std::map<std::array<double, 3>, Vec3> of_body;
+  for (const Vec3& x : body.positions)
+    of_body[{x[0], x[1], x[2]}] = soft_normal(x);
+  std::size_t kept = 0, rim = 0, inside = 0;
+  for (const Fragment& f : pieces) {
+    const auto normals = node_normals(f.mesh, f.face_kind, f.attributes.normal);
+    const double side = f.center_of_mass.z() > dip(0, 0) ? -1 : 1;  // the upper piece looks down on the break
+    std::set<NodeId> of_surface;
+    for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+      if (f.face_kind[t] == FaceKind::original)
+        of_surface.insert(f.mesh.corners[TriId(t)].begin(), f.mesh.corners[TriId(t)].end());
+    for (std::size_t i = 0; i < f.mesh.node_count(); ++i) {
+      const Vec3 &x = f.mesh.positions[NodeId(i)], &n = normals[NodeId(i)];
+      EXPECT_NEAR(n.norm(), 1, 1e-14);
+      if (const auto own = of_body.find({x[0], x[1], x[2]}); own != of_body.end()) {
+        EXPECT_EQ(n, own->second);
+        ++kept;
+      } else if (of_surface.contains(NodeId(i))) {
+        EXPECT_GT(n.dot(soft_normal(x)), 0.9999);
+        ++rim;
+      } else {
+        EXPECT_GT(n.dot(side * Vec3(-0.4 * x[0], 0.1, 1).normalized()), 0.999);
+        ++inside;
+      }
+    }
+  }
+  EXPECT_EQ(kept, body.node_count());
+  EXPECT_GT(rim, 100u);
+  EXPECT_GT(inside, 500u);
 }
 
 TEST(DressFragments, ABrokenPieceCanBeBrokenAgain) {

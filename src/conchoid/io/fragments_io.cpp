@@ -90,12 +90,14 @@ SurfaceAttributes written_attributes(const Fragment& fragment) {
 }
 
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment) {
+  const auto normal = written_attributes(fragment).normal;
   write_ply(path, {.mesh = fragment.mesh,
                    .face_kind = fragment.face_kind,
                    .source = fragment.source,
                    .frame = {},
                    .material = fragment.attributes.material,
-                   .uv = fragment.attributes.uv});
+                   .uv = fragment.attributes.uv,
+                   .normal = node_normals(fragment.mesh, fragment.face_kind, normal)});
 }
 
 void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragment>& fragments) {

@@ -205,6 +205,7 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
   header << "ply\nformat binary_little_endian 1.0\ncomment conchoid, lengths in metres\n"
          << "element vertex " << mesh.node_count()
          << "\nproperty double x\nproperty double y\nproperty double z\n"
+         << (ply.normal.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n")
          << "element face " << mesh.triangle_count() << "\nproperty list uchar int vertex_indices\n";
   if (!ply.face_kind.empty())
     header << "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar kind\n";
@@ -215,10 +216,13 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
   header << "end_header\n";
 
   std::string bytes;
-  bytes.reserve(24 * mesh.node_count() + 32 * mesh.triangle_count());
-  for (const Vec3& x : mesh.positions)
+  bytes.reserve(36 * mesh.node_count() + 32 * mesh.triangle_count());
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
     for (int i = 0; i < 3; ++i)
-      append_bytes(bytes, x[i]);
+      append_bytes(bytes, mesh.positions[NodeId(n)][i]);
+    for (int i = 0; i < 3 && !ply.normal.empty(); ++i)
+      append_bytes(bytes, static_cast<float>(ply.normal[NodeId(n)][i]));
+  }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     append_bytes(bytes, std::uint8_t{3});
     for (NodeId c : mesh.corners[TriId(t)])

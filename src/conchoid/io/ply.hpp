@@ -7,7 +7,7 @@
 
 namespace conchoid {
 
-/// A triangle mesh as the run folder keeps it. The per-triangle lists are empty or as long as the mesh.
+/// A triangle mesh as the run folder keeps it. Every list is empty or as long as the mesh.
 struct PlyMesh {
   TriMesh mesh;                              ///< coordinates in double precision [m]
   std::vector<FaceKind> face_kind;           ///< property "kind": 0 original surface, 1 fracture
@@ -15,6 +15,7 @@ struct PlyMesh {
   std::vector<int> frame;                    ///< property "frame": the frame in which the triangle appeared
   std::vector<int> material = {};            ///< property "material"; written, not read
   std::vector<std::array<Vec2, 3>> uv = {};  ///< list "texcoord", single precision; written, not read
+  IdVector<NodeId, Vec3> normal = {};        ///< "nx", "ny", "nz", single precision; written, not read
 };
 
 /// Binary little-endian PLY, complete or not at all. Faces with a kind also carry a colour (red, green,

@@ -3,6 +3,36 @@
 #include <cmath>
 
 namespace conchoid {
+namespace {
+
+/// Mean of unit vectors weighted by area.
+class MeanNormal {
+ public:
+  void add(const Vec3& normal, double area) {
+    if (normal.isZero(0)) return;
+    all_equal_ = empty() || (all_equal_ && normal == largest_);
+    if (empty() || area > largest_area_) {
+      largest_ = normal;
+      largest_area_ = area;
+    }
+    sum_ += area * normal;
+    total_ += area;
+  }
+  bool empty() const { return largest_.isZero(0); }
+  Vec3 value() const {
+    if (empty()) return Vec3::UnitZ();
+    const double length = sum_.norm();
+    return all_equal_ || !(length > kVanishing * total_) ? largest_ : Vec3(sum_ / length);
+  }
+
+ private:
+  static constexpr double kVanishing = 1e-6;  ///< of the sum of areas: opposite faces, up to round-off
+  Vec3 sum_ = Vec3::Zero(), largest_ = Vec3::Zero();
+  double total_ = 0, largest_area_ = 0;
+  bool all_equal_ = true;
+};
+
+}  // namespace
 
 std::vector<std::array<Vec3, 3>> corner_normals(const TriMesh& mesh, const std::vector<FaceKind>& face_kind,
                                                 double crease_angle) {
@@ -31,6 +61,29 @@ std::vector<std::array<Vec3, 3>> corner_normals(const TriMesh& mesh, const std::
                       : normal[t].squaredNorm() > 0 ? normal[t]
                                                     : Vec3::UnitZ();
     }
+  return normals;
+}
+
+IdVector<NodeId, Vec3> node_normals(const TriMesh& mesh, const std::vector<FaceKind>& face_kind,
+                                    const std::vector<std::array<Vec3, 3>>& corner_normal) {
+  const auto is_fracture = [&](std::size_t t) {
+    return !face_kind.empty() && face_kind[t] == FaceKind::fracture;
+  };
+  IdVector<NodeId, MeanNormal> mean(mesh.node_count());
+  for (const bool fracture : {false, true}) {
+    IdVector<NodeId, MeanNormal> found(mesh.node_count());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (is_fracture(t) != fracture) continue;
+      const double area = area_vector(mesh, TriId(t)).norm();
+      for (std::size_t k = 0; k < 3; ++k)
+        found[mesh.corners[TriId(t)][k]].add(corner_normal[t][k], area);
+    }
+    for (std::size_t n = 0; n < mesh.node_count(); ++n)
+      if (mean[NodeId(n)].empty()) mean[NodeId(n)] = found[NodeId(n)];
+  }
+  IdVector<NodeId, Vec3> normals(mesh.node_count());
+  for (std::size_t n = 0; n < mesh.node_count(); ++n)
+    normals[NodeId(n)] = mean[NodeId(n)].value();
   return normals;
 }
 
