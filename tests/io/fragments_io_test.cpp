@@ -273,7 +273,11 @@ TEST(FragmentPly, NodesAreSharedAndHaveOutwardUnitNormals) {
   const ScratchFolder folder;
   for (const Fragment& piece : painted_cube(0.1)) {
     write_fragment_ply(folder / "f.ply", piece);
-    const auto [mesh, a] = read_surface(folder / "f.ply");
+    std::string bytes = file_content(folder / "f.ply");
+    const std::string list = "float normals\n";
+    bytes.replace(bytes.find(list), list.size(), "float unknown\n");  // only the nodes' are left
+    std::ofstream(folder / "nodes.ply", std::ios::binary) << bytes;
+    const auto [mesh, a] = read_surface(folder / "nodes.ply");
     EXPECT_EQ(mesh.positions, piece.mesh.positions);
     ASSERT_EQ(a.normal.size(), 12u);
     const auto wanted = node_normals(piece.mesh, piece.face_kind, piece.attributes.normal);
@@ -284,6 +288,21 @@ TEST(FragmentPly, NodesAreSharedAndHaveOutwardUnitNormals) {
         if (piece.face_kind[t] == FaceKind::original) {
           EXPECT_GT(a.normal[t][k].dot(unit_normal(mesh, TriId(t))), 0.1);
         }
+      }
+  }
+}
+
+// A piece that is broken again keeps its sharp edges: read back, each corner has its own normal.
+TEST(FragmentPly, NormalsOfCornersReadBack) {
+  const ScratchFolder folder;
+  for (const Fragment& piece : painted_cube(0.1)) {
+    write_fragment_ply(folder / "f.ply", piece);
+    const auto [mesh, a] = read_surface(folder / "f.ply");
+    ASSERT_EQ(a.normal.size(), 12u);
+    for (std::size_t t = 0; t < 12; ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR((a.normal[t][k] - piece.attributes.normal[t][k]).norm(), 0, 1e-7);
+        EXPECT_NEAR((a.normal[t][k] - unit_normal(mesh, TriId(t))).norm(), 0, 1e-7);
       }
   }
 }

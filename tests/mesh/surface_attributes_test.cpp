@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/mesh/formats.hpp"
 
 namespace conchoid {
@@ -89,6 +90,22 @@ TEST(SurfaceAttributes, PlyFacesWithTextureCoordinatesOfTheirOwnComeFirst) {
   EXPECT_EQ(a.uv[1][1], Vec2(0.75, 0.5));
   EXPECT_EQ(a.uv[1][2], Vec2(0, 1));
   EXPECT_EQ(a.uv[2][0], Vec2(0, 0));
+}
+
+TEST(SurfaceAttributes, PlyFacesWithNormalsOfTheirOwnComeFirst) {
+  const std::string head = ply_vertices +
+                           "property list uchar int vertex_indices\n"
+                           "property list uchar float normals\nend_header\n" +
+                           ply_points;
+  const auto a =
+      read_text(".ply", head + "4 0 1 2 3 12 1 0 0 0 2 0 0 0 4 0 -1 0\n3 3 2 1 4 1 0 0 1\n").attributes;
+  ASSERT_EQ(a.normal.size(), 3u);  // the square is two triangles
+  EXPECT_EQ(a.normal[1][0], Vec3(1, 0, 0));
+  EXPECT_EQ(a.normal[1][1], Vec3(0, 0, 1));
+  EXPECT_EQ(a.normal[1][2], Vec3(0, -1, 0));
+  EXPECT_EQ(a.normal[2][0], Vec3::Zero());  // four numbers are not normals of three corners
+  EXPECT_EQ(a.uv[1][1], Vec2(1, 1));
+  EXPECT_THROW(read_text(".ply", head + "3 0 1 2 9 1 0 0 1 0 nan 1 0 0\n3 0 2 3 0\n"), InputError);
 }
 
 TEST(SurfaceAttributes, WeightsFindThePlaceInTheTriangle) {

@@ -97,7 +97,8 @@ void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragm
                    .frame = {},
                    .material = fragment.attributes.material,
                    .uv = fragment.attributes.uv,
-                   .normal = node_normals(fragment.mesh, fragment.face_kind, normal)});
+                   .normal = node_normals(fragment.mesh, fragment.face_kind, normal),
+                   .corner_normal = normal});
 }
 
 void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragment>& fragments) {

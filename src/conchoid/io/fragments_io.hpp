@@ -20,8 +20,9 @@ FragmentFormats formats_from_names(const std::vector<std::string>& names, const 
 
 /// One fragment as binary PLY in double precision: triangles share nodes (the file is as watertight as the
 /// fragment) and therefore have one normal each, see node_normals(); each face carries its colour, its kind
-/// (0 original, 1 fracture), its source triangle and, where the fragment is dressed, its material id and the
-/// texture coordinates of its corners (list texcoord). Coordinates are the body's.
+/// (0 original, 1 fracture), its source triangle, the normals of its corners (list normals), which
+/// read_surface() prefers, and, where the fragment is dressed, its material id and the texture coordinates of
+/// its corners (list texcoord). Coordinates are the body's.
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment);
 
 /// One fragment as Wavefront OBJ with a group per material ("original" and "fracture", or the materials of

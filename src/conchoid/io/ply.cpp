@@ -197,6 +197,15 @@ void read_faces(const std::filesystem::path& path, const Element& element, Numbe
   }
 }
 
+/// The vectors of the three corners as one list of single precision.
+template <class T>
+void append_list(std::string& bytes, const std::array<T, 3>& corners) {
+  append_bytes(bytes, static_cast<std::uint8_t>(3 * T::RowsAtCompileTime));
+  for (const T& corner : corners)
+    for (const double component : corner)
+      append_bytes(bytes, static_cast<float>(component));
+}
+
 }  // namespace
 
 void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
@@ -213,6 +222,7 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
   if (!ply.frame.empty()) header << "property int frame\n";
   if (!ply.material.empty()) header << "property int material\n";
   if (!ply.uv.empty()) header << "property list uchar float texcoord\n";
+  if (!ply.corner_normal.empty()) header << "property list uchar float normals\n";
   header << "end_header\n";
 
   std::string bytes;
@@ -235,11 +245,8 @@ void write_ply(const std::filesystem::path& path, const PlyMesh& ply) {
     if (!ply.source.empty()) append_bytes(bytes, ply.source[t].value);
     if (!ply.frame.empty()) append_bytes(bytes, std::int32_t{ply.frame[t]});
     if (!ply.material.empty()) append_bytes(bytes, std::int32_t{ply.material[t]});
-    if (ply.uv.empty()) continue;
-    append_bytes(bytes, std::uint8_t{6});
-    for (const Vec2& uv : ply.uv[t])
-      for (const double component : uv)
-        append_bytes(bytes, static_cast<float>(component));
+    if (!ply.uv.empty()) append_list(bytes, ply.uv[t]);
+    if (!ply.corner_normal.empty()) append_list(bytes, ply.corner_normal[t]);
   }
   AtomicFile file(path);
   file.stream() << header.str();

@@ -16,6 +16,7 @@ struct PlyMesh {
   std::vector<int> material = {};            ///< property "material"; written, not read
   std::vector<std::array<Vec2, 3>> uv = {};  ///< list "texcoord", single precision; written, not read
   IdVector<NodeId, Vec3> normal = {};        ///< "nx", "ny", "nz", single precision; written, not read
+  std::vector<std::array<Vec3, 3>> corner_normal = {};  ///< list "normals", likewise
 };
 
 /// Binary little-endian PLY, complete or not at all. Faces with a kind also carry a colour (red, green,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -231,6 +232,9 @@ bool holds_corners(const Property& property) {
 bool holds_uv(const Property& property) {
   return property.list_count && property.name == "texcoord";
 }
+bool holds_normals(const Property& property) {
+  return property.list_count && property.name == "normals";
+}
 bool holds_material(const Property& property) {
   return !property.list_count && (property.name == "material_index" || property.name == "material");
 }
@@ -248,17 +252,28 @@ void read_corners(Body& body, const Property& property, std::uint64_t vertex_cou
   }
 }
 
+/// Normals or texture coordinates of the corners of a face, one after the other.
+std::vector<double> read_list(Body& body, const Property& property) {
+  std::vector<double> values;
+  for (std::uint64_t k = body.next_length(property); k > 0; --k)
+    values.push_back(body.next(property.type));
+  if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+    body.fail("a normal or texture coordinate is not finite; repair or remove it");
+  return values;
+}
+
 void read_face(Body& body, const Element& element, std::uint64_t vertex_count, AttributedMesh& surface,
                AttributeCollector& attributes) {
   TriMesh& mesh = surface.mesh;
   std::vector<NodeId> polygon;
-  std::vector<double> uv;
+  std::vector<double> uv, normal;
   for (const Property& property : element.properties) {
     if (holds_corners(property)) {
       read_corners(body, property, vertex_count, polygon);
     } else if (holds_uv(property)) {
-      for (std::uint64_t k = body.next_length(property); k > 0; --k)
-        uv.push_back(body.next(property.type));
+      uv = read_list(body, property);
+    } else if (holds_normals(property)) {
+      normal = read_list(body, property);
     } else if (holds_material(property)) {
       const double id = body.next(property.type);
       if (!(std::abs(id) < 1e9) || id != std::floor(id)) body.fail("its material is not a whole number");
@@ -271,21 +286,22 @@ void read_face(Body& body, const Element& element, std::uint64_t vertex_count, A
   add_polygon(mesh, polygon);
   for (std::size_t t = first; t < mesh.triangle_count(); ++t) {
     attributes.add_triangle(t);
-    if (uv.size() != 2 * polygon.size()) continue;
     for (int k = 0; k < 3; ++k) {
-      const std::size_t c = 2 * polygon_corner(t - first, k);
-      attributes.add_uv(t, k, {uv[c], uv[c + 1]});
+      const std::size_t c = polygon_corner(t - first, k);
+      if (uv.size() == 2 * polygon.size()) attributes.add_uv(t, k, {uv[2 * c], uv[2 * c + 1]});
+      if (normal.size() == 3 * polygon.size())
+        attributes.add_normal(t, k, {normal[3 * c], normal[3 * c + 1], normal[3 * c + 2]});
     }
   }
 }
 
-/// Gives the corners what their vertices carry; texture coordinates that faces have of their own stay.
+/// Gives the corners what their vertices carry; what faces have of their own stays.
 void spread(const TriMesh& mesh, const VertexAttributes& vertex, AttributeCollector& attributes) {
-  const bool faces_have_uv = attributes.has_uv();
+  const bool faces_have_uv = attributes.has_uv(), faces_have_normal = attributes.has_normal();
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::size_t node = mesh.corners[TriId(t)][static_cast<std::size_t>(k)].index();
-      if (node < vertex.normal.size()) attributes.add_normal(t, k, vertex.normal[node]);
+      if (!faces_have_normal && node < vertex.normal.size()) attributes.add_normal(t, k, vertex.normal[node]);
       if (!faces_have_uv && node < vertex.uv.size()) attributes.add_uv(t, k, vertex.uv[node]);
     }
 }

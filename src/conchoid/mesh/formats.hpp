@@ -14,8 +14,8 @@ namespace conchoid {
 /// small multiple of the file's size.
 TriMesh read_mesh(const std::filesystem::path& path);
 /// Likewise, with what the file says besides: normals, texture coordinates and materials of .obj (vn, vt,
-/// usemtl) and .ply (vertices: nx ny nz; s t, u v or texture_u texture_v; faces: list texcoord,
-/// material_index or material).
+/// usemtl) and .ply (vertices: nx ny nz; s t, u v or texture_u texture_v; faces: lists texcoord and normals
+/// with two and three numbers per corner, which count before those of vertices; material_index or material).
 AttributedMesh read_surface(const std::filesystem::path& path);
 
 /// Writes a surface in the format of the name's ending: .ply (binary little endian, double coordinates: read

@@ -36,6 +36,7 @@ class AttributeCollector {
   void use_material(const std::string& name);
   void add_normal(std::size_t triangle, int corner, const Vec3& normal);
   void add_uv(std::size_t triangle, int corner, const Vec2& uv);
+  bool has_normal() const { return !out_.normal.empty(); }
   bool has_uv() const { return !out_.uv.empty(); }
   /// The current material belongs to the triangle.
   void add_triangle(std::size_t triangle);
