@@ -82,6 +82,15 @@ inline std::string mesh_crack_text(const std::string& file) {
   return fmt::format("[[crack]]\nkind = 'mesh'\nfile = '{}'\n", file);
 }
 
+/// The cube with a disc crack in its middle, pulled apart across it: it comes apart.
+/// @param fields  tables of the material, if any
+inline std::string cracked_cube_text(const std::string& fields, double crack, double surface) {
+  return "[body]\nmodel = 'cube'\n" + material_text() + fields + resolution_text(crack, surface) +
+         "[[crack]]\nkind = 'disc'\ncenter = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\nradius = 0.2\n" +
+         boundary_text("z+", "traction", {0, 0, 1e7}) + boundary_text("z-", "traction", {0, 0, -1e7}) +
+         "[run]\nmax_cracks = 0\n";
+}
+
 /// A rotation about no axis of note, orthogonal to the last bit or two.
 inline Mat3 arbitrary_rotation() {
   const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();

@@ -18,13 +18,8 @@ namespace {
 
 constexpr double kCrackEdge = 0.1;
 
-/// The cube with a disc crack in its middle, pulled apart across it.
 std::string cube_text(const std::string& fields, double surface = 0.02) {
-  return "[body]\nmodel = 'cube'\n" + test::material_text() + fields +
-         test::resolution_text(kCrackEdge, surface) +
-         "[[crack]]\nkind = 'disc'\ncenter = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\nradius = 0.2\n" +
-         test::boundary_text("z+", "traction", {0, 0, 1e7}) +
-         test::boundary_text("z-", "traction", {0, 0, -1e7}) + "[run]\nmax_cracks = 0\n";
+  return test::cracked_cube_text(fields, kCrackEdge, surface);
 }
 
 std::string noise_text(double wavelength, double amplitude, int octaves = 1) {
