@@ -1,19 +1,15 @@
 #include "conchoid/crack/fine_front.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "conchoid/crack/criterion.hpp"
 #include "conchoid/crack/front_frames.hpp"
 #include "conchoid/crack/front_smoothing.hpp"
 #include "conchoid/crack/strip.hpp"
 #include "conchoid/crack/subdivide.hpp"
-#include "conchoid/crack/touching.hpp"
 
 namespace conchoid {
 
