@@ -112,7 +112,9 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
                              const ToughnessField& toughness, double target_edge, FineFront* led) {
   std::vector<FrontStep> steps = given;
   auto expected = expected_motions(sheet, steps, toughness, target_edge);
-  while (const auto joint = find_joint(sheet, expected, target_edge)) {
+  for (std::size_t left = expected.size(); left > 0; --left) {
+    const auto joint = find_joint(sheet, expected, target_edge);
+    if (!joint) break;
     const JoinedFronts joined = join_fronts(sheet, *joint);
     fine.join(sheet, *joint, joined);
     if (led) led->join(sheet, *joint, joined);

@@ -23,7 +23,8 @@ double opening_angle(const CrackSheet& sheet, const SheetFront& front, const Fro
 /// The longest pair of stretches that the motions bring together (front_touches): the ligament between is
 /// nowhere wider than 1.4 target_edge, the two sheets are oriented alike, and triangles between their nodes
 /// neither fold nor stand across them. At the body's surface a stretch goes on to the first node outside.
-/// Where no such pair is left, the two edges at a node where the front opens by less than 75°. Else none.
+/// Where no such pair is left: a last ligament at the body's surface, a few nodes inside between two outside;
+/// then the two edges at a node where the front opens by less than 75°. Else none.
 std::optional<FrontJoint> find_joint(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
                                      double target_edge);
 

@@ -53,10 +53,11 @@ struct FrontMotion {
   Vec3 displacement;  ///< [m]
 };
 
-/// Nodes that would come closer than 0.3 target_edge (0.7 where the sheets are oriented alike) to another
-/// front, or to another part of their own front, that faces them (their e2 point against each other), on
-/// their way or at its end. Both sides are listed, sorted. Parts of a front fewer than three edges apart do
-/// not count.
+/// Nodes that would come too close to another front, or to another part of their own front, that faces them
+/// (their e2 point against each other), on their way or at its end: closer than 0.3 target_edge; where the
+/// sheets are oriented alike 1 within one front, and 0.7 between two unless they are more than 0.45 apart
+/// across the sheets. Both sides are listed, sorted. Parts of a front fewer than three edges apart do not
+/// count.
 std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
                                    double target_edge);
 

@@ -10,8 +10,9 @@ namespace conchoid {
 /// way; a proper sheet comes back unchanged.
 TriMesh manifold_part(const TriMesh& sheet);
 
-/// Its manifold part without the triangles that pass through one with a lower id which is itself kept: what grew
-/// first stays, what ran into it later is cut open there. Decided exactly. Degenerate triangles are left out too.
+/// Its manifold part without the triangles that pass through one with a lower id which is itself kept: what
+/// grew first stays, what ran into it later is cut open there. Decided exactly. Degenerate triangles are left
+/// out too.
 TriMesh embedded_part(const TriMesh& sheet);
 
 }  // namespace conchoid

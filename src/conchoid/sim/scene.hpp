@@ -30,13 +30,13 @@ struct BodySpec {
 };
 
 struct MaterialSpec {
-  std::string name;  ///< of the library (material/library.hpp); empty: none
-  double youngs_modulus = 0;                                 ///< E [Pa]
-  double poisson_ratio = 0;                                  ///< ν
-  double density = 1200;                                     ///< [kg/m³]
-  double strength = 7.6e7;                                   ///< [Pa]
-  double toughness = 1e6;                                    ///< K_c [Pa√m]
-  double compressive_factor = 3;                             ///< ≥ 1
+  std::string name;               ///< of the library (material/library.hpp); empty: none
+  double youngs_modulus = 0;      ///< E [Pa]
+  double poisson_ratio = 0;       ///< ν
+  double density = 1200;          ///< [kg/m³]
+  double strength = 7.6e7;        ///< [Pa]
+  double toughness = 1e6;         ///< K_c [Pa√m]
+  double compressive_factor = 3;  ///< ≥ 1
   std::vector<FieldFactor> toughness_field, strength_field;  ///< factors on the two; none: homogeneous
 
   ElasticConstants elastic() const { return {youngs_modulus, poisson_ratio}; }

@@ -33,8 +33,8 @@ struct FragmentSettings {
 
 /// Cuts a closed surface by crack sheets (fine meshes; they may stick out of the body and stop at each other)
 /// into watertight pieces, largest first. A sheet, or a part of one, that does not separate leaves a slit: a
-/// pair of coincident fracture faces, tagged and visible (open_slits() draws them apart). Triangles lower than
-/// 3·10⁻⁴ of a sheet's mean edge are taken out of its cut where that can be (remove_slivers()).
+/// pair of coincident fracture faces, tagged and visible (open_slits() draws them apart). Triangles lower
+/// than 3·10⁻⁴ of a sheet's mean edge are taken out of its cut where that can be (remove_slivers()).
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
                                          const FragmentSettings& settings);
 
