@@ -22,6 +22,7 @@ constexpr double kAway = -0.2;           ///< cosine to the other side of an edg
 constexpr double kAlike = 0.5;           ///< cosine between the normals of two sheets that are oriented alike
 constexpr std::size_t kPocket = 6;       ///< so many nodes between two stretches are taken in
 constexpr double kNarrow = 75 * std::numbers::pi / 180;  ///< opening of a front that breaks
+constexpr double kOpen = 135 * std::numbers::pi / 180;   ///< of a last ligament that breaks
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A stretch of a front: `count` places from `begin` on, round the ring where it is one.
@@ -79,11 +80,23 @@ class JointFinder {
           any = any || moves[node(run, run.count - 1).index()];
           ++run.count;
         }
-        if (!any || inside(node(run, run.count - 1))) continue;
+        if (!any || inside(node(run, run.count - 1)) || !opens(run)) continue;
         if (auto joint = split(f, run, kLongestOutside)) return joint;
       }
     }
     return std::nullopt;
+  }
+
+  /// Whether the front turns inwards somewhere between the ends of a stretch; what runs straight across a
+  /// corner of the body goes on by itself.
+  bool opens(const Run& run) const {
+    const SheetFront& f = front(run.front);
+    const std::vector<FrontFrame> frames = front_frames(sheet_, f);
+    for (std::size_t k = 1; k + 1 < run.count; ++k) {
+      const std::size_t i = (run.begin + k) % f.nodes.size();
+      if (opening_angle(sheet_, f, frames[i], i) < kOpen) return true;
+    }
+    return false;
   }
 
   std::vector<bool> moving(const std::vector<FrontMotion>& motions) const {
