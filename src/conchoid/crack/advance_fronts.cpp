@@ -16,9 +16,7 @@ namespace conchoid {
 
 namespace {
 
-constexpr double kAlike = 0.5;         ///< cosine between the normals of sheets that are oriented alike
-constexpr double kWideLigament = 1.4;  ///< × r̄: wider ones do not break yet …
-constexpr double kLigamentLeft = 0.8;  ///< … but are narrowed to this
+constexpr double kLigamentLeft = 0.8;  ///< × r̄: to which ligaments are narrowed that are too wide to break
 constexpr double kTurned = 0.5;        ///< cosine between the ways of two parts of a front that come together
 constexpr double kRoom = 0.4;          ///< of the gap between them: each may take so much
 constexpr double kLeastRoom = 0.05;    ///< × r̄: with less of it a node stays
@@ -57,7 +55,7 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
   std::unordered_map<NodeId, double> way;
   for (const FrontMotion& motion : expected)
     way.emplace(motion.node, motion.displacement.norm());
-  const auto normals = node_area_vectors(sheet.mesh);
+  const auto normals = unit_node_normals(sheet.mesh);
   for (const FrontTouch& touch : front_touches(sheet, expected, target_edge)) {
     const SheetFront& other = sheet.fronts[touch.other];
     const NodeId node = sheet.fronts[touch.front].nodes[touch.index];
@@ -67,9 +65,9 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
     bool alike = true;
     for (const NodeId n : ends) {
       if (const auto at = way.find(n); at != way.end()) opposite = std::max(opposite, at->second);
-      alike = alike && normals[n].normalized().dot(normals[node].normalized()) > kAlike;
+      alike = alike && normals[n].dot(normals[node]) > kAlikeSheets;
     }
-    const bool wide = alike && touch.gap > kWideLigament * target_edge;
+    const bool wide = alike && touch.gap > kWidestLigament * target_edge;
     const double share = (touch.gap - kLigamentLeft * target_edge) / (way.at(node) + opposite);
     for (const NodeId n : {node, ends[0], ends[1]}) {
       if (sheet.state[n] != FrontState::active) continue;
@@ -86,9 +84,10 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
   for (const FrontMotion& motion : expected)
     if (sheet.state[motion.node] == FrontState::active) moving.insert(motion.node);
   const auto& x = sheet.mesh.positions;
+  const auto area_vectors = node_area_vectors(sheet.mesh);
   for (const SheetFront& front : sheet.fronts) {
     const std::size_t n = front.nodes.size();
-    const std::vector<FrontFrame> frames = front_frames(sheet, front);
+    const std::vector<FrontFrame> frames = front_frames(sheet, front, area_vectors);
     for (std::size_t i = 0; i < n; ++i) {
       const NodeId node = front.nodes[i];
       const std::size_t before = previous_index(i, n, front.closed), after = next_index(i, n, front.closed);

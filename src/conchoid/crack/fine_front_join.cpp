@@ -122,9 +122,7 @@ class Divider {
 /// Triangles from marker to marker, their long edges divided.
 FineFront::JointEnds FineFront::fill_ligament(const std::vector<NodeId>& first,
                                               const std::vector<NodeId>& second, int part) {
-  IdVector<NodeId, Vec3> normals = node_area_vectors(surface_);
-  for (Vec3& normal : normals)
-    normal.normalize();
+  const IdVector<NodeId, Vec3> normals = unit_node_normals(surface_);
   std::vector<Edge> kept;
   for (const auto* run : {&first, &second})
     for (std::size_t i = 1; i < run->size(); ++i)

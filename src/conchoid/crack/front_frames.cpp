@@ -134,6 +134,13 @@ IdVector<NodeId, Vec3> node_area_vectors(const TriMesh& mesh) {
   return sum;
 }
 
+IdVector<NodeId, Vec3> unit_node_normals(const TriMesh& mesh) {
+  IdVector<NodeId, Vec3> normals = node_area_vectors(mesh);
+  for (Vec3& n : normals)
+    n.normalize();
+  return normals;
+}
+
 std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId, Vec3>& normals,
                                      const std::vector<NodeId>& nodes, bool closed, FrontNormals kind) {
   const std::size_t n = nodes.size();

@@ -10,6 +10,9 @@ namespace conchoid {
 /// normal.
 IdVector<NodeId, Vec3> node_area_vectors(const TriMesh& mesh);
 
+/// The same as unit vectors; zero where all triangles are degenerate or there are none.
+IdVector<NodeId, Vec3> unit_node_normals(const TriMesh& mesh);
+
 /// Frames along a front. e1: node normal, of which kind see FrontNormals; e3: tangent of the circle through
 /// the node and its two neighbours, at corners the bisector of the two edges, at an open end the one edge,
 /// made perpendicular to e1; e2 = e3 × e1. A node whose triangles are all degenerate takes the frame of the

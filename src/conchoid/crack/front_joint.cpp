@@ -14,12 +14,10 @@
 namespace conchoid {
 namespace {
 
-constexpr double kWidest = 1.4;          ///< × target edge: ligament
 constexpr double kLongest = 2.2;         ///< × target edge: edge across a ligament
 constexpr double kLongestOutside = 3.2;  ///< × target edge: the same where it lies outside of the body
 constexpr std::size_t kBay = 5;          ///< so many nodes inside between two outside are a last ligament
 constexpr double kAway = -0.2;           ///< cosine to the other side of an edge that runs away from it
-constexpr double kAlike = 0.5;           ///< cosine between the normals of two sheets that are oriented alike
 constexpr std::size_t kPocket = 6;       ///< so many nodes between two stretches are taken in
 constexpr double kNarrow = 75 * std::numbers::pi / 180;  ///< opening of a front that breaks
 constexpr double kOpen = 135 * std::numbers::pi / 180;   ///< of a last ligament that breaks
@@ -39,10 +37,7 @@ struct Cell {
 class JointFinder {
  public:
   JointFinder(const CrackSheet& sheet, double target_edge)
-      : sheet_(sheet), edge_(target_edge), normals_(node_area_vectors(sheet.mesh)) {
-    for (Vec3& n : normals_)
-      n = n.normalized();
-  }
+      : sheet_(sheet), edge_(target_edge), normals_(unit_node_normals(sheet.mesh)) {}
 
   std::optional<FrontJoint> run(const std::vector<FrontMotion>& motions) const {
     const auto touches = front_touches(sheet_, motions, edge_);
@@ -110,17 +105,18 @@ class JointFinder {
   std::optional<FrontJoint> narrow_corner(const std::vector<FrontMotion>& motions) const {
     const auto moves = moving(motions);
     std::optional<FrontJoint> found;
+    const auto area_vectors = node_area_vectors(sheet_.mesh);
     for (const SheetFront& front : sheet_.fronts) {
       const std::size_t n = front.nodes.size();
       if (n < 4) continue;
-      const std::vector<FrontFrame> frames = front_frames(sheet_, front);
+      const std::vector<FrontFrame> frames = front_frames(sheet_, front, area_vectors);
       for (std::size_t i = 0; i < n; ++i) {
         const NodeId before = front.nodes[previous_index(i, n, front.closed)], node = front.nodes[i];
         const NodeId after = front.nodes[next_index(i, n, front.closed)];
         if (!moves[before.index()] || !moves[after.index()] || sheet_.state[node] == FrontState::outside)
           continue;
         if (opening_angle(sheet_, front, frames[i], i) > kNarrow) continue;
-        if ((position(before) - position(after)).norm() > kWidest * edge_) continue;
+        if ((position(before) - position(after)).norm() > kWidestLigament * edge_) continue;
         const FrontJoint joint{{before, node}, {node, after}};
         if (sound(joint) && (!found || node < found->first.back())) found = joint;
       }
@@ -138,9 +134,10 @@ class JointFinder {
   std::vector<Cell> facing_cells(const std::vector<FrontTouch>& touches) const {
     std::vector<Cell> cells;
     for (const FrontTouch& t : touches) {
-      if (t.gap > kWidest * edge_) continue;
+      if (t.gap > kWidestLigament * edge_) continue;
       for (const std::size_t j : {t.edge, next_index(t.edge, size(t.other), front(t.other).closed)}) {
-        if (normals_[front(t.front).nodes[t.index]].dot(normals_[front(t.other).nodes[j]]) < kAlike) continue;
+        if (normals_[front(t.front).nodes[t.index]].dot(normals_[front(t.other).nodes[j]]) < kAlikeSheets)
+          continue;
         const bool order = t.front != t.other ? t.front < t.other : t.index < j;
         cells.push_back(order ? Cell{t.front, t.other, t.index, j} : Cell{t.other, t.front, j, t.index});
       }
@@ -316,7 +313,7 @@ class JointFinder {
       const NodeId end = nodes.back(), before = nodes[nodes.size() - 2];
       const NodeId other = others.front(), before_other = others[1];
       const bool away = runs_away(end, before, other), other_away = runs_away(other, before_other, end);
-      if (!away && !other_away && apart(end, other) < kWidest * edge_) return;
+      if (!away && !other_away && apart(end, other) < kWidestLigament * edge_) return;
       const bool drop = away != other_away ? away : apart(before, other) <= apart(end, before_other);
       if (drop)
         nodes.pop_back();
@@ -442,9 +439,7 @@ std::vector<FrontChain> relinked(const std::vector<FrontChain>& chains,
 }
 
 JoinedFronts join_fronts(CrackSheet& sheet, const FrontJoint& joint) {
-  IdVector<NodeId, Vec3> normals = node_area_vectors(sheet.mesh);
-  for (Vec3& n : normals)
-    n = n.normalized();
+  const IdVector<NodeId, Vec3> normals = unit_node_normals(sheet.mesh);
   for (const auto& t : triangles_between(sheet.mesh.positions, normals, joint.first, joint.second))
     sheet.mesh.corners.push_back(t);
   sheet.triangle_birth.resize(sheet.mesh.triangle_count(), sheet.frame);

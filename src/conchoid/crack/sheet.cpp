@@ -222,7 +222,12 @@ TriMesh oriented_like(const CrackSheet& sheet, TriMesh part) {
 }
 
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front) {
-  return front_frames(sheet.mesh, node_area_vectors(sheet.mesh), front.nodes, front.closed,
+  return front_frames(sheet, front, node_area_vectors(sheet.mesh));
+}
+
+std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front,
+                                     const IdVector<NodeId, Vec3>& area_vectors) {
+  return front_frames(sheet.mesh, area_vectors, front.nodes, front.closed,
                       sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets);
 }
 

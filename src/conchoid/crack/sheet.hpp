@@ -47,6 +47,9 @@ TriMesh oriented_like(const CrackSheet& sheet, TriMesh part);
 /// Frames at the nodes of one front of the sheet; as long as it has not grown, with normals carried on to the
 /// front.
 std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front);
+/// The same with node_area_vectors() of its mesh at hand, for many fronts.
+std::vector<FrontFrame> front_frames(const CrackSheet& sheet, const SheetFront& front,
+                                     const IdVector<NodeId, Vec3>& area_vectors);
 
 struct FrontMotion {
   NodeId node;        ///< on a front

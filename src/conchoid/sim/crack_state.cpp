@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/crack/front_frames.hpp"
 #include "conchoid/mesh/manifold_part.hpp"
 
 namespace conchoid {
@@ -36,16 +37,6 @@ double worst_piece(const CutComplex& cut) {
   return worst;
 }
 
-IdVector<NodeId, Vec3> node_normals(const TriMesh& sheet) {
-  IdVector<NodeId, Vec3> normals(sheet.node_count(), Vec3::Zero());
-  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-    for (NodeId node : sheet.corners[TriId(t)])
-      normals[node] += area_vector(sheet, TriId(t));
-  for (Vec3& n : normals)
-    if (n.norm() > 0) n.normalize();
-  return normals;
-}
-
 // Where the sheet runs exactly through nodes of the surface, or along one of its triangles, the pieces
 // degenerate. The boundary elements then see it displaced along its normal by a hundredth of a crack edge or
 // a few, the first that leaves no sliver.
@@ -55,7 +46,7 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
   for (double shift : {0.0, 0.01, -0.013, 0.024, -0.031, 0.045, -0.057, 0.08}) {
     TriMesh moved = sheet;
     if (shift != 0) {
-      const IdVector<NodeId, Vec3> normals = node_normals(sheet);
+      const IdVector<NodeId, Vec3> normals = unit_node_normals(sheet);
       for (std::size_t i = 0; i < moved.node_count(); ++i)
         moved.positions[NodeId(i)] += shift * crack_edge * normals[NodeId(i)];
     }
@@ -95,9 +86,10 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) 
     if (of_sheet.valid() && used[i] && !on_mouth[i]) state.node_in_cut[of_sheet] = NodeId(i);
   }
   state.points.clear();
+  const auto area_vectors = node_area_vectors(state.sheet.mesh);
   for (std::size_t f = 0; f < state.sheet.fronts.size(); ++f) {
     const SheetFront& front = state.sheet.fronts[f];
-    const std::vector<FrontFrame> frames = front_frames(state.sheet, front);
+    const std::vector<FrontFrame> frames = front_frames(state.sheet, front, area_vectors);
     for (std::size_t k = 0; k < front.nodes.size(); ++k) {
       const NodeId node = front.nodes[k];
       const bool inside = state.node_in_cut[node].valid();
@@ -130,9 +122,10 @@ std::vector<FrontPoint> ligament_points(const CrackState& state) {
     }
   }
   std::vector<FrontPoint> points;
+  const auto area_vectors = node_area_vectors(state.sheet.mesh);
   for (std::size_t f = 0; f < state.sheet.fronts.size(); ++f) {
     const SheetFront& front = state.sheet.fronts[f];
-    const std::vector<FrontFrame> frames = front_frames(state.sheet, front);
+    const std::vector<FrontFrame> frames = front_frames(state.sheet, front, area_vectors);
     for (std::size_t k = 0; k < front.nodes.size(); ++k) {
       const NodeId node = front.nodes[k];
       if (state.sheet.state[node] != FrontState::outside) continue;
