@@ -127,7 +127,7 @@ std::string result_hash(const RunResult& result) {
   for (const Fragment& f : result.fragments)
     add_mesh(hash, f.mesh);
   for (const FrontRow& row : result.front) {
-    hash.add(row.position.x());
+    hash.add(std::array{row.position[0], row.position[1], row.position[2]});
     hash.add(std::array{row.intensity[0], row.intensity[1], row.intensity[2]});
     hash.add(std::array{row.opening[0], row.opening[1], row.opening[2]});
   }
