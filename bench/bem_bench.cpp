@@ -5,7 +5,7 @@
 #include "conchoid/bem/body_blocks.hpp"
 #include "conchoid/bem/bordered_cholesky.hpp"
 #include "conchoid/bem/cracked_body.hpp"
-#include "conchoid/crack/sheet.hpp"
+#include "conchoid/crack/front/sheet.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "crack/crack_samples.hpp"
 #include "side_by_side.hpp"

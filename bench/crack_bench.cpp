@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "conchoid/crack/advance_fronts.hpp"
-#include "conchoid/crack/fine_front.hpp"
-#include "conchoid/crack/stress_intensity.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/crack/intensity/stress_intensity.hpp"
 #include "crack/crack_samples.hpp"
 #include "side_by_side.hpp"
 

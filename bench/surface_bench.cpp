@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "conchoid/mesh/corefine.hpp"
-#include "conchoid/mesh/corefine_pairs.hpp"
+#include "conchoid/intersect/corefine.hpp"
+#include "conchoid/intersect/corefine_pairs.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/surface/fragments.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 #include "side_by_side.hpp"
 
 namespace conchoid::bench {

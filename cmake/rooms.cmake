@@ -58,7 +58,7 @@ endfunction()
 # FLAGS compiler flags of this room's own: they rule out the precompiled headers that the others share.
 function(conchoid_room name)
   cmake_parse_arguments(ROOM "" "" "FLAGS;USES;LIBRARIES;LIBRARIES_PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_library(conchoid_${name} STATIC ${sources})
   set_target_properties(conchoid_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   list(TRANSFORM ROOM_USES PREPEND conchoid_)

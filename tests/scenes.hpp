@@ -9,7 +9,7 @@
 #include <string>
 
 #include "conchoid/core/vec.hpp"
-#include "conchoid/mesh/formats.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/scene.hpp"
 
 // Scenes of the tests as text, the way a user writes them.

@@ -12,9 +12,9 @@
 #include "command.hpp"
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/mesh/examine.hpp"
-#include "conchoid/mesh/formats.hpp"
-#include "conchoid/mesh/repair.hpp"
+#include "conchoid/formats/formats.hpp"
+#include "conchoid/remesh/examine.hpp"
+#include "conchoid/remesh/repair.hpp"
 #include "json.hpp"
 
 namespace conchoid {

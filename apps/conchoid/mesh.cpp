@@ -6,7 +6,7 @@
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/mesh/formats.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/body_setup.hpp"
 
 namespace conchoid {

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "cli/program.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/forest.hpp"
-#include "conchoid/mesh/formats.hpp"
 #include "conchoid/mesh/models.hpp"
 
 using namespace conchoid;

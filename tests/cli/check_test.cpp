@@ -6,9 +6,9 @@
 #include <string>
 
 #include "cli/program.hpp"
-#include "conchoid/mesh/formats.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/models.hpp"
-#include "conchoid/mesh/validate.hpp"
+#include "conchoid/remesh/validate.hpp"
 
 using namespace conchoid;
 using namespace conchoid::test;

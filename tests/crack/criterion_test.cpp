@@ -1,4 +1,4 @@
-#include "conchoid/crack/criterion.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 
 #include <gtest/gtest.h>
 

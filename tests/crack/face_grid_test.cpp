@@ -1,11 +1,11 @@
-#include "conchoid/crack/face_grid.hpp"
+#include "conchoid/crack/fine/face_grid.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "conchoid/crack/advance_fronts.hpp"
-#include "conchoid/crack/fine_front.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
 #include "crack_samples.hpp"
 
 using namespace conchoid;

@@ -1,5 +1,5 @@
-#include "conchoid/crack/fine_front.hpp"
-#include "conchoid/crack/advance_fronts.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
 
 #include <gtest/gtest.h>
 

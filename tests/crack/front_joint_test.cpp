@@ -1,4 +1,4 @@
-#include "conchoid/crack/front_joint.hpp"
+#include "conchoid/crack/closing/front_joint.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "conchoid/crack/advance_fronts.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
 #include "crack_samples.hpp"
 
 // Fronts that meet become one.

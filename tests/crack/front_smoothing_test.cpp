@@ -1,4 +1,4 @@
-#include "conchoid/crack/front_smoothing.hpp"
+#include "conchoid/crack/fine/front_smoothing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "conchoid/crack/advance_fronts.hpp"
-#include "conchoid/crack/criterion.hpp"
-#include "conchoid/crack/fine_front.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 #include "crack_samples.hpp"
 
 using namespace conchoid;

@@ -1,4 +1,4 @@
-#include "conchoid/crack/front.hpp"
+#include "conchoid/crack/front/front.hpp"
 
 #include <gtest/gtest.h>
 

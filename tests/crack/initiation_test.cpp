@@ -1,8 +1,8 @@
-#include "conchoid/crack/initiation.hpp"
+#include "conchoid/crack/law/initiation.hpp"
 
 #include <gtest/gtest.h>
 
-#include "conchoid/crack/front.hpp"
+#include "conchoid/crack/front/front.hpp"
 #include "crack_samples.hpp"
 
 using namespace conchoid;

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "conchoid/crack/advance_fronts.hpp"
-#include "conchoid/crack/fine_front.hpp"
-#include "conchoid/crack/front_track.hpp"
-#include "conchoid/crack/marker_curve.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/crack/fine/front_track.hpp"
+#include "conchoid/crack/fine/marker_curve.hpp"
 #include "crack_samples.hpp"
 
 // A fine front of another spacing that follows the one which moves the crack.

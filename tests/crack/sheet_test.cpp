@@ -1,4 +1,4 @@
-#include "conchoid/crack/sheet.hpp"
+#include "conchoid/crack/front/sheet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "conchoid/crack/stress_intensity.hpp"
+#include "conchoid/crack/intensity/stress_intensity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/io/fragments_io.hpp"
-#include "conchoid/mesh/formats.hpp"
 #include "conchoid/surface/dress_fragments.hpp"
+#include "intersect/cut_shapes.hpp"
 #include "io/program_output.hpp"
 #include "io/samples.hpp"
-#include "mesh/cut_shapes.hpp"
 
 // What Blender makes of the files, where it is installed.
 using namespace conchoid;

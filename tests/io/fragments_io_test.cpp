@@ -10,8 +10,8 @@
 #include <set>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/io/ply.hpp"
-#include "conchoid/mesh/formats.hpp"
 #include "conchoid/surface/corner_normals.hpp"
 #include "conchoid/surface/dress_fragments.hpp"
 #include "io/samples.hpp"

@@ -5,9 +5,9 @@
 
 #include "conchoid/io/fragments_io.hpp"
 #include "conchoid/surface/dress_fragments.hpp"
+#include "intersect/cut_shapes.hpp"
 #include "io/program_output.hpp"
 #include "io/samples.hpp"
-#include "mesh/cut_shapes.hpp"
 
 using namespace conchoid;
 

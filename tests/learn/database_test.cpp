@@ -8,8 +8,8 @@
 #include <fstream>
 #include <thread>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 #include "conchoid/learn/summary.hpp"
 #include "synthetic.hpp"
 

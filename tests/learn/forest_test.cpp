@@ -5,9 +5,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
-#include "conchoid/learn/bytes.hpp"
 #include "synthetic.hpp"
 
 namespace conchoid {

@@ -6,7 +6,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"
-#include "conchoid/mesh/validate.hpp"
+#include "conchoid/remesh/validate.hpp"
 #include "mesh/mesh_checks.hpp"
 
 namespace conchoid {

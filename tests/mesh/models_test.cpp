@@ -8,7 +8,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
-#include "conchoid/mesh/validate.hpp"
+#include "conchoid/remesh/validate.hpp"
 #include "mesh/mesh_checks.hpp"
 
 namespace conchoid {

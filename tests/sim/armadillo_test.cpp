@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "conchoid/mesh/formats.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/run.hpp"
 #include "scenes.hpp"
 

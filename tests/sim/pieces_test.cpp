@@ -4,7 +4,7 @@
 #include <set>
 
 #include "conchoid/sim/run.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 #include "scenes.hpp"
 
 // From a body with materials and texture coordinates to its pieces.

@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "conchoid/core/random.hpp"
-#include "conchoid/mesh/self_intersection.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/sim/run.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 #include "scenes.hpp"
 
 // Whatever a scene does to a body, what comes out are proper solids.

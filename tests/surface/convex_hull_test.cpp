@@ -7,7 +7,7 @@
 
 #include "conchoid/surface/fragments.hpp"
 #include "conchoid/surface/mass_properties.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "conchoid/mesh/self_intersection.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/surface/open_slits.hpp"
 #include "conchoid/surface/separation.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

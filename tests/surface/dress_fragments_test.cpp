@@ -8,7 +8,7 @@
 #include <set>
 
 #include "conchoid/surface/corner_normals.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

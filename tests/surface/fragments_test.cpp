@@ -10,10 +10,10 @@
 #include <numeric>
 #include <set>
 
-#include "conchoid/mesh/formats.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "conchoid/mesh/self_intersection.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "conchoid/mesh/self_intersection.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/surface/contacts.hpp"
 #include "conchoid/surface/mass_properties.hpp"
-#include "mesh/cut_shapes.hpp"
+#include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
 namespace {

@@ -6,7 +6,7 @@
 #include "conchoid/bem/boundary.hpp"
 #include "conchoid/bem/interior_stress.hpp"
 #include "conchoid/elastic/constants.hpp"
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
 

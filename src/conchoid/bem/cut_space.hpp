@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "conchoid/bem/boundary.hpp"
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/intersect/corefine.hpp"
 #include "conchoid/quadrature/pair_integrals.hpp"
 
 namespace conchoid {

@@ -5,8 +5,8 @@
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/io/colors.hpp"
-#include "conchoid/io/numbers.hpp"
 #include "conchoid/io/ply.hpp"
 #include "conchoid/surface/convex_hull.hpp"
 #include "conchoid/surface/corner_normals.hpp"

@@ -7,7 +7,7 @@
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/io/numbers.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/io/run_folder.hpp"
 
 namespace conchoid {

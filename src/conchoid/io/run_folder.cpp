@@ -8,9 +8,9 @@
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/formats/formats.hpp"
 #include "conchoid/io/level_set.hpp"
 #include "conchoid/io/ply.hpp"
-#include "conchoid/mesh/formats.hpp"
 
 namespace conchoid {
 namespace {

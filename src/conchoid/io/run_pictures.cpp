@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/core/parallel.hpp"
-#include "conchoid/io/numbers.hpp"
 
 namespace conchoid {
 namespace {

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "conchoid/core/atomic_file.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/io/byte_order.hpp"
-#include "conchoid/io/numbers.hpp"
 
 namespace conchoid {
 namespace {

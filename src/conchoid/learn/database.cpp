@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 #include "conchoid/learn/run_part.hpp"
 
 namespace conchoid {

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 #include "conchoid/learn/database.hpp"
 
 namespace conchoid {

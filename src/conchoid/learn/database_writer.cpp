@@ -10,8 +10,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/run_part.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/crack/stress_intensity.hpp"
+#include "conchoid/crack/intensity/stress_intensity.hpp"
 
 namespace conchoid {
 namespace {

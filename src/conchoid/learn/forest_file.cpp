@@ -8,7 +8,7 @@
 #include "conchoid/core/error.hpp"
 
 #include <algorithm>
-#include "conchoid/learn/bytes.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/learn/forest.hpp"
 
 namespace conchoid {

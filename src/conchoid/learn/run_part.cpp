@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 
 namespace conchoid {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 
 namespace conchoid {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "conchoid/learn/bytes.hpp"
+#include "conchoid/core/bytes.hpp"
 
 namespace conchoid {
 namespace {

@@ -6,8 +6,6 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/circle_points.hpp"
-#include "conchoid/mesh/formats.hpp"
-#include "conchoid/mesh/validate.hpp"
 
 namespace conchoid {
 namespace {
@@ -274,12 +272,6 @@ TriMesh rectangle_crack(const Vec3& center, const Vec3& edge1, const Vec3& edge2
     if (behind[e] != behind[next]) mesh.corners.push_back({behind[e], front[next], behind[next]});
   }
   fill_grid(mesh, inner, n, m);
-  return mesh;
-}
-
-TriMesh crack_from_mesh_file(const std::filesystem::path& path) {
-  TriMesh mesh = read_mesh(path);
-  require_valid_sheet(mesh, path.string());
   return mesh;
 }
 

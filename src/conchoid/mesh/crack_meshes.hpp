@@ -38,9 +38,6 @@ TriMesh ellipse_crack(const Vec3& center, const Vec3& normal, double a, double b
 TriMesh rectangle_crack(const Vec3& center, const Vec3& edge1, const Vec3& edge2,
                         const SheetResolution& resolution);
 
-/// Open sheet from a file of any format of `read_mesh`, checked by `require_valid_sheet`.
-TriMesh crack_from_mesh_file(const std::filesystem::path& path);
-
 /// Makes a sheet that ends on the body's surface stick out of it: extrudes the given boundary edges by
 /// `length` [m] outward in the planes of their triangles (direction averaged at shared nodes; there the strip
 /// keeps its width), one strip of two triangles per edge. Nodes and triangles of the sheet keep their ids.

@@ -8,13 +8,13 @@
 
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/formats/formats.hpp"
+#include "conchoid/intersect/corefine.hpp"
 #include "conchoid/mesh/closest_point.hpp"
-#include "conchoid/mesh/corefine.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
-#include "conchoid/mesh/formats.hpp"
 #include "conchoid/mesh/models.hpp"
-#include "conchoid/mesh/remesh.hpp"
-#include "conchoid/mesh/validate.hpp"
+#include "conchoid/remesh/remesh.hpp"
+#include "conchoid/remesh/validate.hpp"
 
 namespace conchoid {
 namespace {
@@ -105,7 +105,9 @@ TriMesh make_crack(const CrackSpec& spec, double edge) {
     case CrackKind::mesh:
       break;
   }
-  return crack_from_mesh_file(spec.file);
+  TriMesh sheet = read_mesh(spec.file);
+  require_valid_sheet(sheet, spec.file.string());
+  return sheet;
 }
 
 // Moves the nodes of the given boundary edges outward, in the plane of the sheet.

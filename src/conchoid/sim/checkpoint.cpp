@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/bytes.hpp"
 
 namespace conchoid {
 namespace {

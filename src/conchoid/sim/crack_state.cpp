@@ -6,8 +6,8 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/crack/front_frames.hpp"
-#include "conchoid/mesh/manifold_part.hpp"
+#include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/intersect/manifold_part.hpp"
 
 namespace conchoid {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "conchoid/crack/front.hpp"
-#include "conchoid/crack/sheet.hpp"
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/crack/front/front.hpp"
+#include "conchoid/crack/front/sheet.hpp"
+#include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
 

@@ -1,5 +1,5 @@
 #include "conchoid/sim/frame_loop.hpp"
-#include "conchoid/crack/advance_fronts.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
 
 #include <fmt/core.h>
 
@@ -13,9 +13,9 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
-#include "conchoid/crack/criterion.hpp"
-#include "conchoid/crack/initiation.hpp"
-#include "conchoid/mesh/unfold.hpp"
+#include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/law/initiation.hpp"
+#include "conchoid/intersect/unfold.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {

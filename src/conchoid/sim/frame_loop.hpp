@@ -3,7 +3,7 @@
 #include <chrono>
 #include <optional>
 
-#include "conchoid/crack/fine_front.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/sim/checkpoint.hpp"
 #include "conchoid/sim/opening_source.hpp"
 #include "conchoid/sim/run.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "conchoid/bem/cracked_body.hpp"
-#include "conchoid/crack/stress_intensity.hpp"
+#include "conchoid/crack/intensity/stress_intensity.hpp"
 #include "conchoid/sim/body_setup.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"

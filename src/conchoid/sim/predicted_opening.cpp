@@ -1,4 +1,4 @@
-#include "conchoid/crack/criterion.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/opening_source.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/crack/front.hpp"
+#include "conchoid/crack/front/front.hpp"
 #include "conchoid/sim/scene.hpp"
 
 namespace conchoid {

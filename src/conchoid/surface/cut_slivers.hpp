@@ -1,6 +1,6 @@
 #pragma once
 
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
 

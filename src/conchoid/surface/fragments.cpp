@@ -7,7 +7,7 @@
 #include <map>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/intersect/corefine.hpp"
 #include "conchoid/surface/cut_slivers.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <map>
 
+#include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/place.hpp"
-#include "conchoid/mesh/self_intersection.hpp"
-#include "conchoid/mesh/unfold.hpp"
 
 namespace conchoid {
 namespace {

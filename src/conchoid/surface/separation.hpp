@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "conchoid/mesh/corefine.hpp"
+#include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "conchoid/intersect/retriangulate.hpp"
 #include "conchoid/mesh/place.hpp"
-#include "conchoid/mesh/retriangulate.hpp"
 #include "conchoid/surface/contacts.hpp"
 #include "conchoid/surface/union_find.hpp"
 

@@ -1,0 +1,154 @@
+#include "conchoid/crack/closing/touching.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/crack/front/front_frames.hpp"
+
+namespace conchoid {
+
+namespace {
+
+constexpr double kTouchDistance = 0.3;  ///< × target edge
+constexpr double kMeetDistance = 0.7;   ///< × target edge: where the sheets are oriented alike and …
+constexpr double kOffset = 0.45;  ///< × target edge: … no farther apart across; else they pass each other
+constexpr double kCloseDistance = 1.0;  ///< × target edge: where they are one crack already
+constexpr double kAlike = 0;            ///< cosine between their normals
+constexpr double kCloseRadius = 0.3;    ///< × target edge: rings within it close instead (sheet.cpp)
+constexpr std::size_t kNearAlong =
+    3;  ///< parts of one front fewer edges apart are neighbours, not opposite each other
+
+/// A front node, where it goes, and its forward direction.
+struct Mover {
+  NodeId node;
+  Vec3 from, to, forward, normal;
+  bool moves = false;
+  FrontState state = FrontState::active;
+};
+
+struct MovingFront {
+  std::vector<Mover> nodes;
+  bool closed = false;
+};
+
+std::vector<MovingFront> moving_fronts(const CrackSheet& sheet, const std::vector<FrontMotion>& motions) {
+  std::vector<FrontMotion> sorted = motions;
+  std::sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.node < y.node; });
+  const auto normals = node_area_vectors(sheet.mesh);
+  std::vector<MovingFront> fronts;
+  for (const SheetFront& front : sheet.fronts) {
+    MovingFront& moving = fronts.emplace_back();
+    moving.closed = front.closed;
+    const auto frames = front_frames(sheet.mesh, normals, front.nodes, front.closed);
+    for (std::size_t i = 0; i < front.nodes.size(); ++i) {
+      const Vec3& x = sheet.mesh.positions[front.nodes[i]];
+      const auto at = std::lower_bound(sorted.begin(), sorted.end(), front.nodes[i],
+                                       [](const FrontMotion& m, NodeId n) { return m.node < n; });
+      const bool moves = at != sorted.end() && at->node == front.nodes[i];
+      moving.nodes.push_back({front.nodes[i], x, moves ? Vec3(x + at->displacement) : x, frames[i].e2,
+                              frames[i].e1, moves, sheet.state[front.nodes[i]]});
+    }
+  }
+  return fronts;
+}
+
+bool neighbours_on_front(std::size_t i, std::size_t edge, std::size_t n, bool closed) {
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    const std::size_t d = a > b ? a - b : b - a;
+    return closed ? std::min(d, n - d) : d;
+  };
+  return std::min(apart(i, edge), apart(i, next_index(edge, n, closed))) < kNearAlong;
+}
+
+/// A ring about to close (sheet.hpp) touches itself by intent.
+bool closes(const MovingFront& front, double target_edge) {
+  if (!front.closed) return false;
+  Vec3 center = Vec3::Zero();
+  for (const Mover& m : front.nodes)
+    center += m.to / static_cast<double>(front.nodes.size());
+  return std::all_of(front.nodes.begin(), front.nodes.end(), [&](const Mover& m) {
+    return m.moves && (m.to - center).norm() < kCloseRadius * target_edge;
+  });
+}
+
+bool touches(const Mover& m, const Mover& a, const Mover& b, bool one_front, double target_edge) {
+  double distance = kTouchDistance * target_edge;
+  if (std::min(m.normal.dot(a.normal), m.normal.dot(b.normal)) > kAlike) {
+    const Vec3 normal = (2 * m.normal + a.normal + b.normal).normalized();
+    const double across = std::abs((0.5 * (a.from + b.from) - m.from).dot(normal));
+    if (!one_front && across > kOffset * target_edge) return false;
+    distance = (one_front ? kCloseDistance : kMeetDistance) * target_edge;
+  }
+  const Vec3 other_forward = a.forward + b.forward;
+  const Vec3 step = m.to - m.from;
+  if (m.forward.dot(other_forward) >= 0) return false;
+  if ((0.5 * (a.from + b.from) - m.from).dot(step) <= 0) return false;
+  return std::min(segment_distance(m.from, m.to, a.to, b.to),
+                  segment_distance(m.from, m.to, a.from, b.from)) < distance;
+}
+
+/// Cheap test before touches(): the mover's ball and the edge's ball, both grown by the distance.
+bool within_reach(const Mover& m, const Mover& a, const Mover& b, double distance) {
+  const double own = (m.to - m.from).norm();
+  const double edge = std::max((b.from - a.from).norm(), (b.to - a.to).norm()) + (a.to - a.from).norm();
+  const double reach = own + edge + distance;
+  return (m.from - a.from).squaredNorm() < reach * reach;
+}
+
+}  // namespace
+
+double segment_distance(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) {
+  const Vec3 u = q - p, v = b - a, w = p - a;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const double det = uu * vv - uv * uv;
+  double s = det > 1e-14 * uu * vv ? std::clamp((uv * vw - uw * vv) / det, 0.0, 1.0) : 0.0;
+  double t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
+  s = uu > 0 ? std::clamp((uv * t - uw) / uu, 0.0, 1.0) : 0.0;
+  t = vv > 0 ? std::clamp((uv * s + vw) / vv, 0.0, 1.0) : 0.0;
+  return (w + s * u - t * v).norm();
+}
+
+std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
+                                      double target_edge) {
+  const auto fronts = moving_fronts(sheet, motions);
+  std::vector<FrontTouch> touches_found;
+  for (std::size_t f = 0; f < fronts.size(); ++f) {
+    const bool closing = closes(fronts[f], target_edge);
+    for (std::size_t i = 0; i < fronts[f].nodes.size(); ++i) {
+      const Mover& m = fronts[f].nodes[i];
+      if (!m.moves || m.state != FrontState::active) continue;
+      for (std::size_t g = 0; g < fronts.size(); ++g) {
+        if (f == g && closing) continue;
+        const std::size_t n = fronts[g].nodes.size();
+        for (std::size_t e = 0; e < edge_count(n, fronts[g].closed); ++e) {
+          const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next_index(e, n, fronts[g].closed)];
+          if (a.state == FrontState::outside && b.state == FrontState::outside) continue;
+          if (f == g && neighbours_on_front(i, e, n, fronts[g].closed)) continue;
+          if (!within_reach(m, a, b, kCloseDistance * target_edge) || !touches(m, a, b, f == g, target_edge))
+            continue;
+          touches_found.push_back({f, i, g, e, segment_distance(m.from, m.from, a.from, b.from)});
+        }
+      }
+    }
+  }
+  return touches_found;
+}
+
+std::vector<NodeId> touching_nodes(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
+                                   double target_edge) {
+  std::vector<NodeId> touching;
+  const auto take = [&](const SheetFront& front, std::size_t i) {
+    if (sheet.state[front.nodes[i]] == FrontState::active) touching.push_back(front.nodes[i]);
+  };
+  for (const FrontTouch& touch : front_touches(sheet, motions, target_edge)) {
+    const SheetFront& other = sheet.fronts[touch.other];
+    take(sheet.fronts[touch.front], touch.index);
+    take(other, touch.edge);
+    take(other, next_index(touch.edge, other.nodes.size(), other.closed));
+  }
+  std::sort(touching.begin(), touching.end());
+  touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+  return touching;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,383 @@
+#include "conchoid/crack/fine/fine_front.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "conchoid/crack/fine/front_smoothing.hpp"
+#include "conchoid/crack/fine/subdivide.hpp"
+#include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/front/strip.hpp"
+
+namespace conchoid {
+
+namespace {
+
+constexpr double kShortest = 0.5, kLongest = 1.5;  ///< × h: spacing of the markers
+constexpr double kRowAfter = 0.5;      ///< × h: distance from the last row at which a marker leaves the next
+constexpr double kLastRowAfter = 0.1;  ///< × h: the same at the end of a run
+constexpr double kFaceDistance = 0.5;  ///< × h: how far from a face a marker stops
+constexpr std::size_t kOwnMarkers = 4;  ///< markers on either side whose rows are not in a marker's way
+constexpr int kMostParts = 4;           ///< of a sub-step, where h is finer than it
+constexpr int kMostDivisions = 64;      ///< edges of initial triangles are divided into at most this many
+constexpr double kRound = 1e-6;  ///< so that r̄/h = 20 + round-off is 20, and a face just reached is reached
+
+double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
+  const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
+  double sum = 0;
+  for (std::size_t i = 0; i < edges; ++i)
+    sum +=
+        (mesh.positions[front.nodes[next_index(i, n, front.closed)]] - mesh.positions[front.nodes[i]]).norm();
+  return edges > 0 ? sum / static_cast<double>(edges) : 0;
+}
+
+MarkerCurve initial_curve(const TriMesh& surface, const Subdivision& fine, const SheetFront& coarse) {
+  MarkerCurve curve;
+  curve.closed = coarse.closed;
+  const auto add = [&](NodeId node, NodeId rider) {
+    Marker marker;
+    marker.node = node;
+    marker.position = surface.positions[node];
+    marker.coarse = rider;
+    curve.markers.push_back(marker);
+  };
+  const std::size_t n = coarse.nodes.size();
+  for (std::size_t i = 0; i < edge_count(n, coarse.closed); ++i) {
+    const auto along = fine.along(coarse.nodes[i], coarse.nodes[next_index(i, n, coarse.closed)]);
+    for (std::size_t k = 0; k < along.size(); ++k)
+      add(along[k], k == 0 ? coarse.nodes[i] : NodeId());
+  }
+  if (!coarse.closed) add(fine.corner(coarse.nodes.back()), coarse.nodes.back());
+  return curve;
+}
+
+/// Middle of the curve's edge (a, b) by the cubic through four points, of a run of several nodes the mean of
+/// its ends.
+Vec3 smooth_middle(const StripCurve& curve, std::size_t a, std::size_t b) {
+  const std::size_t n = curve.nodes.size();
+  const auto at = [&](std::size_t i) -> const Vec3& { return curve.target[i]; };
+  const std::size_t before = previous_index(a, n, curve.closed), after = next_index(b, n, curve.closed);
+  const Vec3 middle = 0.5 * (at(a) + at(b));
+  if (next_index(a, n, curve.closed) != b || before == a || after == b) return middle;
+  return middle + 0.125 * (middle - 0.5 * (at(before) + at(after)));
+}
+
+std::size_t index_of(const MarkerCurve& curve, NodeId coarse) {
+  const auto at = std::find_if(curve.markers.begin(), curve.markers.end(),
+                               [&](const Marker& m) { return m.coarse == coarse; });
+  return static_cast<std::size_t>(at - curve.markers.begin());
+}
+
+/// The marker at a node of the new row.
+Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& surface,
+                 const std::vector<bool>& wanted, double period) {
+  Marker marker = old.markers[node.first];
+  const Marker& last = old.markers[node.last];
+  const Vec3& x = surface.positions[node.id];
+  switch (node.kind) {
+    case StripNode::Kind::kept:
+      if (wanted[node.first]) marker.position = x;  // it could not leave a sound row: held back
+      return marker;
+    case StripNode::Kind::moved:
+      break;
+    case StripNode::Kind::merged:
+      for (std::size_t i = node.first; i != node.last;) {
+        i = old.next(i);
+        const bool rides = old.markers[i].coarse.valid();
+        if (rides || (!marker.coarse.valid() && old.markers[i].node < marker.node)) marker = old.markers[i];
+      }
+      break;
+    case StripNode::Kind::inserted: {
+      const double to = last.parameter < marker.parameter ? last.parameter + period : last.parameter;
+      marker.parameter += node.s * (to - marker.parameter);
+      marker.direction = (1 - node.s) * marker.direction + node.s * last.direction;
+      marker.direction_before = (1 - node.s) * marker.direction_before + node.s * last.direction_before;
+      marker.coarse = NodeId();
+      marker.arrested = marker.arrested && last.arrested;
+      break;
+    }
+  }
+  marker.node = node.id;
+  marker.position = x;
+  return marker;
+}
+
+}  // namespace
+
+FineFront::FineFront(const CrackSheet& sheet, const FineFrontSettings& settings)
+    : settings_(settings), faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
+  settings_.spacing = std::min(settings.spacing, settings.resolution / 4);
+  append_parts(sheet);
+}
+
+void FineFront::append_parts(const CrackSheet& sheet) {
+  if (known_triangles_ == sheet.mesh.triangle_count()) return;
+  double edge = 0;
+  for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f)
+    edge = std::max(edge, mean_front_edge(sheet.mesh, sheet.fronts[f]));
+  const int parts =
+      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostDivisions);
+  const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
+  const std::vector<int> connected = connected_parts(surface_);
+  std::map<int, int> part;  // numbers that no earlier part has
+  const auto part_of = [&](NodeId node) {
+    const auto [at, added] = part.try_emplace(connected[node.index()], next_part_);
+    next_part_ += added ? 1 : 0;
+    return at->second;
+  };
+  for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
+    curves_.push_back(initial_curve(surface_, fine, sheet.fronts[f]));
+    curves_.back().part = part_of(curves_.back().markers.front().node);
+  }
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), part_of(surface_.corners[TriId(t)][0]));
+  birth_.resize(surface_.triangle_count(), sheet.frame);
+  known_triangles_ = sheet.mesh.triangle_count();
+}
+
+std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
+                                            const ToughnessField& toughness) {
+  return advance(sheet, steps, toughness, nullptr);
+}
+
+void FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
+                        const ToughnessField& toughness, const FineFront& leader) {
+  advance(sheet, steps, toughness, &leader.tracks_);
+}
+
+std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
+                                            const ToughnessField& toughness,
+                                            const std::vector<FrontTrack>* leaders) {
+  append_parts(sheet);
+  frame_ = sheet.frame + 1;
+  std::unordered_map<NodeId, FrontStep> step_of;
+  for (const FrontStep& step : given)
+    step_of.emplace(step.node, step);
+  const auto normals = node_area_vectors(sheet.mesh);
+  std::vector<FrontMotion> motions;
+  tracks_.assign(curves_.size(), {});
+  for (std::size_t f = 0; f < curves_.size(); ++f) {
+    FrontSteps steps(sheet, sheet.fronts[f], normals, step_of);
+    if (settings_.smooth_angles) steps.smooth_angles();
+    MarkerCurve& curve = curves_[f];
+    if (leaders) attach_riders(curve, steps.nodes(), sheet.mesh.positions);
+    set_parameters(curve, steps.nodes());
+    for (Marker& marker : curve.markers) {
+      marker.direction_before = marker.direction;
+      marker.moved = false;
+      if (leaders && marker.at_own_face) marker.arrested = marker.at_own_face = false;
+    }
+    std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
+                       sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
+                           FrontState::outside);
+    sweep(curve, steps, inside, toughness, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
+    if (!leaders) append_motions(sheet, curve, steps, motions);
+  }
+  return motions;
+}
+
+void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
+                      const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader) {
+  const auto smooth_front = [&](double time) {
+    if (!leader || leader->empty()) return smoothed_positions(curve, settings_.resolution);
+    std::vector<Vec3> on_track;
+    for (const Marker& marker : curve.markers)
+      on_track.push_back(leader->at(marker.parameter, time));
+    return on_track;
+  };
+  const double divided = settings_.resolution / settings_.spacing / settings_.sub_steps;
+  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRound)), 1, kMostParts);
+  const int count = parts * settings_.sub_steps;
+  for (int step = 0; step < count; ++step) {
+    const double begin = static_cast<double>(step) / count;
+    SubStep part;
+    part.per_frame = count;
+    if (settings_.turn_within > 0)
+      part.turned = std::min(1.0, (step / parts + 1) / (settings_.sub_steps * settings_.turn_within));
+    std::vector<Vec3> from;
+    for (const Marker& marker : curve.markers) {
+      from.push_back(marker.position);
+      part.here.push_back(toughness(marker.position));
+      varied_ = varied_ || !part.here.back().gradient.isZero(0);
+    }
+    if (varied_) {
+      part.smooth = smooth_front(begin);
+      track.add(begin, curve, part.smooth, steps.size());
+    }
+    if (!move_markers(curve, steps, toughness, part)) continue;
+    stop_at_faces(curve, from, inside);
+    leave_row(curve, kRowAfter * settings_.spacing);
+  }
+  if (varied_) track.add(1, curve, smooth_front(1), steps.size());
+}
+
+void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
+                              const std::vector<bool>& inside) const {
+  const std::size_t n = curve.size();
+  const double h = settings_.spacing;
+  std::vector<NodeId> own;
+  for (std::size_t i = 0; i < n; ++i) {
+    Marker& marker = curve.markers[i];
+    const Vec3 way = marker.position - from[i];
+    const auto edge = static_cast<std::size_t>(std::max(0.0, marker.parameter));
+    if (marker.arrested || way.isZero(0) || (edge < inside.size() && !inside[edge])) continue;
+    own.clear();
+    for (std::size_t k = 0, a = i, b = i; k <= kOwnMarkers; ++k) {
+      own.push_back(curve.markers[a].node);
+      own.push_back(curve.markers[b].node);
+      a = curve.previous(a);
+      b = curve.next(b);
+    }
+    std::sort(own.begin(), own.end());
+    const Vec3 ahead = marker.position + kFaceDistance * h * way.normalized();
+    const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
+    if (!hit) continue;
+    const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
+    if (hit->part != curve.part && at > (1 + kRound) * way.norm()) continue;  // not there yet
+    marker.arrested = true;
+    marker.at_own_face = hit->part == curve.part;
+    const double stop =
+        hit->part == curve.part ? std::max(0.0, at - kFaceDistance * h) : at + kFaceDistance * h;
+    marker.position = from[i] + std::min(stop, length) * way.normalized();
+  }
+}
+
+std::vector<NodeId> FineFront::stopped_riders() const {
+  std::vector<NodeId> out;
+  for (const MarkerCurve& curve : curves_)
+    for (const Marker& marker : curve.markers)
+      if (marker.arrested && marker.coarse.valid()) out.push_back(marker.coarse);
+  return out;
+}
+
+void FineFront::leave_row(MarkerCurve& curve, double least) {
+  StripCurve row;
+  row.closed = curve.closed;
+  bool any = false;
+  for (const Marker& marker : curve.markers) {
+    row.nodes.push_back(marker.node);
+    row.target.push_back(marker.position);
+    row.moved.push_back((marker.position - surface_.positions[marker.node]).norm() >= least);
+    row.pinned.push_back(marker.coarse.valid());
+    any = any || row.moved.back();
+  }
+  if (!any) return;
+  const double h = settings_.spacing;
+  const StripSettings strip_settings{kLongest * h, kShortest * h, kShortest * h,
+                                     [&](std::size_t a, std::size_t b, double s) {
+                                       if (s != 0.5) return Vec3((1 - s) * row.target[a] + s * row.target[b]);
+                                       return smooth_middle(row, a, b);
+                                     }};
+  const Strip strip = append_strip(surface_, row, strip_settings);
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), curve.part);
+  birth_.resize(surface_.triangle_count(), frame_);
+  double period = 0;
+  for (const Marker& marker : curve.markers)
+    period = std::max(period, std::floor(marker.parameter) + 1);
+  MarkerCurve next;
+  next.closed = curve.closed;
+  next.part = curve.part;
+  for (const StripNode& node : strip.curve)
+    next.markers.push_back(marker_of(node, curve, surface_, row.moved, period));
+  curve = std::move(next);
+}
+
+/// A marker moved in this frame if its coarse node did; a coarse node without a marker follows the curve, and
+/// where the fine front has closed already the coarse one closes on its centre.
+void FineFront::append_motions(const CrackSheet& sheet, MarkerCurve& curve, const FrontSteps& steps,
+                               std::vector<FrontMotion>& motions) const {
+  std::unordered_set<NodeId> held;  // coarse nodes that wait in tough material
+  for (const Marker& marker : curve.markers)
+    if (varied_ && marker.coarse.valid() && !marker.moved) held.insert(marker.coarse);
+  std::vector<bool> moves;
+  Vec3 center = Vec3::Zero();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    moves.push_back(steps.moves(k) && !held.contains(steps.nodes()[k]));
+    center += sheet.mesh.positions[steps.nodes()[k]] / static_cast<double>(steps.size());
+  }
+  slide_riders(curve, steps.nodes(), moves);
+  std::unordered_map<NodeId, Vec3> position;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if (curve.markers[i].coarse.valid()) position.emplace(curve.markers[i].coarse, coarse_position(curve, i));
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    if (!moves[k]) continue;
+    const NodeId node = steps.nodes()[k];
+    const auto at = position.find(node);
+    Vec3 to = center;
+    if (!curve.markers.empty())
+      to = at != position.end() ? at->second : point_at(curve, static_cast<double>(k), steps.size());
+    const Vec3 displacement = to - sheet.mesh.positions[node];
+    if (!displacement.isZero(0)) motions.push_back({node, displacement});
+  }
+}
+
+Vec3 FineFront::coarse_position(const MarkerCurve& curve, std::size_t i) const {
+  return varied_ ? smoothed_position(curve, i, settings_.resolution) : curve.markers[i].position;
+}
+
+std::optional<Vec3> FineFront::between(NodeId a, NodeId b, double s) const {
+  for (const MarkerCurve& curve : curves_) {
+    const std::size_t i = index_of(curve, a), j = index_of(curve, b);
+    if (i < curve.size() && j < curve.size())
+      return coarse_position(curve, marker_between(curve, i, j, s, true));
+  }
+  return std::nullopt;
+}
+
+void FineFront::adopt(const CrackSheet& sheet, const AdvanceResult& result) {
+  std::vector<MarkerCurve> kept;
+  for (std::size_t f = 0; f < curves_.size(); ++f) {
+    if (result.succession[f].empty()) {
+      close(curves_[f]);
+      continue;
+    }
+    follow(curves_[f], result.succession[f]);
+    kept.push_back(std::move(curves_[f]));
+  }
+  curves_ = std::move(kept);
+  known_triangles_ = sheet.mesh.triangle_count();
+}
+
+void FineFront::follow(MarkerCurve& curve, const std::vector<FrontSuccession>& succession) const {
+  std::unordered_map<NodeId, std::size_t> at;
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    if (curve.markers[i].coarse.valid()) at.emplace(curve.markers[i].coarse, i);
+  std::vector<NodeId> rider(curve.size());
+  for (const FrontSuccession& s : succession) {
+    const auto first = at.find(s.first), last = at.find(s.last);
+    if (first == at.end() || last == at.end()) continue;
+    std::size_t marker = first->second;
+    if (s.kind == FrontSuccession::Kind::merged)
+      marker = marker_between(curve, first->second, last->second, 0.5, true);
+    if (s.kind == FrontSuccession::Kind::inserted)
+      marker = marker_between(curve, first->second, last->second, s.s, false);
+    if (!rider[marker].valid()) rider[marker] = s.node;
+  }
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    curve.markers[i].coarse = rider[i];
+}
+
+void FineFront::close(MarkerCurve& curve) {
+  if (curve.size() < 3) return;
+  Vec3 center = Vec3::Zero();
+  for (const Marker& marker : curve.markers)
+    center += surface_.positions[marker.node] / static_cast<double>(curve.size());
+  const NodeId tip = surface_.positions.add(center);
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    surface_.corners.push_back({curve.markers[curve.next(i)].node, curve.markers[i].node, tip});
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), curve.part);
+  birth_.resize(surface_.triangle_count(), frame_);
+}
+
+void FineFront::finish() {
+  for (MarkerCurve& curve : curves_)
+    leave_row(curve, kLastRowAfter * settings_.spacing);
+}
+
+}  // namespace conchoid

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/crack/front/front_frames.hpp"
+
+// Fine fronts that meet.
+namespace conchoid {
+
+namespace {
+
+constexpr double kLongestAcross = 1.5;  ///< × h: edges across a ligament
+
+/// The marker that carries a coarse node, else the one nearest to it.
+std::size_t marker_at(const MarkerCurve& curve, NodeId coarse, const Vec3& x) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve.markers[i].coarse == coarse) return i;
+    if (const double d = (curve.markers[i].position - x).norm(); d < least) {
+      least = d;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/// What the chain numbers from place `from` on to place `to`; empty if it ends before.
+std::vector<std::size_t> places_between(const FrontChain& chain, std::size_t from, std::size_t to) {
+  const std::size_t n = chain.nodes.size();
+  std::vector<std::size_t> out;
+  if (n == 0 || (!chain.closed && to < from)) return out;
+  for (std::size_t k = 0; k <= (to + n - from) % n; ++k)
+    out.push_back(chain.nodes[(from + k) % n]);
+  return out;
+}
+
+/// Divides edges longer than `longest` in the middle, the longest first, but for those of `kept` (sorted).
+/// @param triangles  appended to `mesh` afterwards; new nodes are added to it
+class Divider {
+ public:
+  Divider(TriMesh& mesh, std::vector<std::array<NodeId, 3>> triangles, std::vector<Edge> kept)
+      : mesh_(mesh), triangles_(std::move(triangles)), kept_(std::move(kept)) {
+    std::sort(kept_.begin(), kept_.end());
+  }
+
+  void run(double longest) {
+    for (int round = 0; round < kMostRounds && divide_once(longest); ++round) {
+    }
+    mesh_.corners.insert(mesh_.corners.end(), triangles_.begin(), triangles_.end());
+  }
+
+  /// The nodes from a to b, which a single edge joined.
+  std::vector<NodeId> path(NodeId a, NodeId b) const {
+    const auto middle = middle_.find(Edge(a, b));
+    if (middle == middle_.end()) return {a, b};
+    std::vector<NodeId> first = path(a, middle->second);
+    const std::vector<NodeId> rest = path(middle->second, b);
+    first.insert(first.end(), rest.begin() + 1, rest.end());
+    return first;
+  }
+
+ private:
+  static constexpr int kMostRounds = 1000;
+  static constexpr double kTie = 1e-9;
+
+  /// Divides all edges that are the longest in their triangles.
+  bool divide_once(double longest) {
+    std::map<Edge, std::vector<std::size_t>> around;
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        around[edge(t, k)].push_back(t);
+    std::map<Edge, double> length;  // of those to divide
+    for (const auto& [e, both] : around) {
+      const double l = (mesh_.positions[e.a] - mesh_.positions[e.b]).norm();
+      if (l > longest && !std::binary_search(kept_.begin(), kept_.end(), e)) length.emplace(e, l);
+    }
+    // Edges as long up to round-off: the one with smaller ids, the same in a mirrored crack.
+    const auto goes_first = [&](const Edge& e, double l) {
+      const auto& both = around[e];
+      return std::all_of(both.begin(), both.end(), [&](std::size_t t) {
+        for (int k = 0; k < 3; ++k)
+          if (const auto other = length.find(edge(t, k)); other != length.end() && other->first != e) {
+            const bool tie = std::abs(other->second - l) <= kTie * l;
+            if (tie ? other->first < e : other->second > l) return false;
+          }
+        return true;
+      });
+    };
+    std::vector<Edge> now;
+    for (const auto& [e, l] : length)
+      if (goes_first(e, l)) now.push_back(e);
+    for (const Edge& e : now) {
+      const NodeId middle = mesh_.positions.add(0.5 * (mesh_.positions[e.a] + mesh_.positions[e.b]));
+      middle_.emplace(e, middle);
+      for (const std::size_t t : around[e]) {
+        auto other = triangles_[t];
+        std::replace(triangles_[t].begin(), triangles_[t].end(), e.a, middle);
+        std::replace(other.begin(), other.end(), e.b, middle);
+        triangles_.push_back(other);
+      }
+    }
+    return !now.empty();
+  }
+
+  Edge edge(std::size_t t, int k) const { return {triangles_[t][k], triangles_[t][(k + 1) % 3]}; }
+
+  TriMesh& mesh_;
+  std::vector<std::array<NodeId, 3>> triangles_;
+  std::vector<Edge> kept_;
+  std::map<Edge, NodeId> middle_;
+};
+
+}  // namespace
+
+/// Triangles from marker to marker, their long edges divided.
+FineFront::JointEnds FineFront::fill_ligament(const std::vector<NodeId>& first,
+                                              const std::vector<NodeId>& second, int part) {
+  const IdVector<NodeId, Vec3> normals = unit_node_normals(surface_);
+  std::vector<Edge> kept;
+  for (const auto* run : {&first, &second})
+    for (std::size_t i = 1; i < run->size(); ++i)
+      kept.emplace_back((*run)[i - 1], (*run)[i]);
+  Divider divider(surface_, triangles_between(surface_.positions, normals, first, second), std::move(kept));
+  divider.run(kLongestAcross * settings_.spacing);
+  for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
+    faces_.take(surface_, TriId(t), part);
+  birth_.resize(surface_.triangle_count(), frame_);
+  return {divider.path(first.front(), second.back()), divider.path(second.front(), first.back())};
+}
+
+void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const JoinedFronts& joined) {
+  const MarkerCurve first = curves_[joined.first], second = curves_[joined.second];
+  std::vector<Marker> markers;  // of both, numbered one after the other
+  std::vector<FrontChain> chains;
+  for (const std::size_t f : std::set{joined.first, joined.second}) {
+    FrontChain& chain = chains.emplace_back();
+    chain.closed = curves_[f].closed;
+    for (const Marker& marker : curves_[f].markers) {
+      chain.nodes.push_back(markers.size());
+      markers.push_back(marker);
+    }
+  }
+  const FrontChain& chain_of_first = chains[joined.first <= joined.second ? 0 : 1];
+  const FrontChain& chain_of_second = chains[joined.second <= joined.first ? 0 : 1];
+  const auto stretch = [&](const MarkerCurve& curve, const FrontChain& chain,
+                           const std::vector<NodeId>& nodes) {
+    const std::size_t from = marker_at(curve, nodes.front(), sheet.mesh.positions[nodes.front()]);
+    const std::size_t to = marker_at(curve, nodes.back(), sheet.mesh.positions[nodes.back()]);
+    return places_between(chain, from, to);
+  };
+  std::vector<std::size_t> removed;
+  std::vector<std::pair<std::size_t, std::size_t>> links;
+  const std::vector<std::size_t> a = stretch(first, chain_of_first, joint.first);
+  const std::vector<std::size_t> b = stretch(second, chain_of_second, joint.second);
+  if (a.size() > 1 && b.size() > 1) {
+    const auto nodes = [&](const std::vector<std::size_t>& numbers) {
+      std::vector<NodeId> out;
+      for (const std::size_t i : numbers)
+        out.push_back(markers[i].node);
+      return out;
+    };
+    const JointEnds ends = fill_ligament(nodes(a), nodes(b), first.part);
+    const auto link = [&](std::size_t from, std::size_t to, const std::vector<NodeId>& between) {
+      if (from == to) {
+        removed.push_back(from);
+        return;
+      }
+      for (std::size_t k = 1; k + 1 < between.size(); ++k) {
+        Marker& marker = markers.emplace_back();  // the front turns there: no direction yet
+        marker.node = between[k];
+        marker.position = surface_.positions[between[k]];
+        links.emplace_back(from, markers.size() - 1);
+        from = markers.size() - 1;
+      }
+      links.emplace_back(from, to);
+    };
+    for (const auto& [marker, rider] :
+         {std::pair{a.front(), joint.first.front()}, std::pair{a.back(), joint.first.back()},
+          std::pair{b.front(), joint.second.front()}, std::pair{b.back(), joint.second.back()}}) {
+      markers[marker].coarse = rider;
+      markers[marker].direction.setZero();
+      markers[marker].arrested = markers[marker].at_own_face = false;
+    }
+    link(a.front(), b.back(), ends.at_first);
+    link(b.front(), a.back(), ends.at_second);
+    for (const auto* run : {&a, &b})
+      removed.insert(removed.end(), run->begin() + 1, run->end() - 1);
+  }
+  const int part = std::min(first.part, second.part), gone = std::max(first.part, second.part);
+  faces_.join(part, gone);
+  std::vector<MarkerCurve> curves;
+  for (std::size_t f = 0; f < curves_.size(); ++f)
+    if (f != joined.first && f != joined.second) curves.push_back(std::move(curves_[f]));
+  const auto rest = relinked(chains, removed, links);
+  while (curves.size() < sheet.fronts.size()) {
+    const SheetFront& front = sheet.fronts[curves.size()];
+    MarkerCurve& curve = curves.emplace_back();
+    curve.closed = front.closed;
+    for (const FrontChain& chain : rest)
+      if (std::any_of(chain.nodes.begin(), chain.nodes.end(), [&](std::size_t i) {
+            return markers[i].coarse.valid() &&
+                   std::find(front.nodes.begin(), front.nodes.end(), markers[i].coarse) != front.nodes.end();
+          })) {
+        for (const std::size_t i : chain.nodes)
+          curve.markers.push_back(markers[i]);
+        break;
+      }
+    for (Marker& marker : curve.markers)  // of the other's nodes none may ride here
+      if (marker.coarse.valid() &&
+          std::find(front.nodes.begin(), front.nodes.end(), marker.coarse) == front.nodes.end())
+        marker.coarse = NodeId();
+    curve.part = part;
+  }
+  for (MarkerCurve& curve : curves)
+    if (curve.part == gone) curve.part = part;
+  curves_ = std::move(curves);
+  known_triangles_ = sheet.mesh.triangle_count();
+}
+
+}  // namespace conchoid

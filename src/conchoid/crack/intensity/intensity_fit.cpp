@@ -1,0 +1,202 @@
+#include "conchoid/crack/intensity/intensity_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/intensity/front_distance.hpp"
+#include "conchoid/crack/intensity/stress_intensity.hpp"
+
+namespace conchoid {
+
+namespace {
+
+constexpr double kReachAlong = 1.6;  ///< samples' feet lie within this many edge lengths of the front node …
+constexpr double kReachBehind = 3.6;  ///< … and the samples within this many of the front
+constexpr double kFullWeightFrom =
+    0.4;                      ///< rows nearer than this (a thin last strip) count less: (r / 0.4 h)²
+constexpr int kMostRows = 6;  ///< rows of nodes searched: thin strips take several to reach 0.4 h
+/// Keeps A', A" and B at 0 where the samples cannot tell them; A" first, as K varies slowly along a front.
+/// B of a Galerkin solution is damped more: on a crack of three rows it would follow the deviation, not the
+/// field.
+constexpr double kGalerkinRidge = 1e-2;
+constexpr double kRidge[3] = {1e-4, 1e-2, 1e-4};
+
+double mean_edge_length(const TriMesh& crack, const Front& front, std::size_t i) {
+  const std::size_t n = front.nodes.size();
+  const std::size_t before = previous_index(i, n, front.closed), after = next_index(i, n, front.closed);
+  const Vec3& x = crack.positions[front.nodes[i]];
+  const double sum =
+      (x - crack.positions[front.nodes[before]]).norm() + (x - crack.positions[front.nodes[after]]).norm();
+  return before == i || after == i ? sum : 0.5 * sum;
+}
+
+/// Nodes behind front node i, reached through the mesh from it and its neighbours on the front, row by row.
+std::vector<NodeId> nodes_behind(const TriMesh& crack, const NodeLinks& links, const Front& front,
+                                 std::size_t i, const std::vector<int>& rows, double farthest) {
+  const std::size_t n = front.nodes.size();
+  std::vector<NodeId> layer{front.nodes[previous_index(i, n, front.closed)], front.nodes[i],
+                            front.nodes[next_index(i, n, front.closed)]};
+  const Vec3& center = crack.positions[front.nodes[i]];
+  std::vector<NodeId> seen, found;
+  while (!layer.empty()) {
+    std::vector<NodeId> next;
+    for (NodeId from : layer)
+      for (const NodeId* to = links.begin(from); to != links.end(from); ++to) {
+        if (rows[to->index()] == 0 || (crack.positions[*to] - center).norm() > farthest) continue;
+        const auto at = std::lower_bound(seen.begin(), seen.end(), *to);
+        if (at != seen.end() && *at == *to) continue;
+        seen.insert(at, *to);
+        next.push_back(*to);
+      }
+    std::sort(next.begin(), next.end());
+    found.insert(found.end(), next.begin(), next.end());
+    layer = std::move(next);
+  }
+  return found;
+}
+
+/// Arc length from front node i to the foot; feet are at most two edges away.
+double along_front(const TriMesh& crack, const Front& front, std::size_t i, const FrontFoot& foot) {
+  const std::size_t n = front.nodes.size();
+  const auto length = [&](std::size_t edge) {
+    return (crack.positions[front.nodes[next_index(edge, n, front.closed)]] -
+            crack.positions[front.nodes[edge]])
+        .norm();
+  };
+  double ahead = 0, behind = 0;
+  std::size_t forward = i, backward = i;
+  for (int step = 0; step < 3; ++step) {
+    if (foot.edge == forward) return ahead + foot.fraction * length(forward);
+    ahead += length(forward);
+    forward = next_index(forward, n, front.closed);
+    backward = previous_index(backward, n, front.closed);
+    behind += length(backward);
+    if (foot.edge == backward) return -behind + foot.fraction * length(backward);
+  }
+  return ahead;
+}
+
+double weight(const OpeningSample& sample, bool galerkin_openings) {
+  const double thin = std::min(1.0, sample.r / kFullWeightFrom);
+  const double s = sample.s / kReachAlong;
+  const double near = (1 - s * s) / (1 + 0.25 * sample.r * sample.r);
+  return thin * thin * near * near * (galerkin_openings && sample.row == 1 ? kFirstRowWeight : 1.0);
+}
+
+/// Takes the Galerkin solution's deviation out of the rates.
+void remove_element_bias(std::vector<OpeningSample>& samples) {
+  double first_row = 0, count = 0;
+  for (const OpeningSample& sample : samples)
+    if (sample.row == 1) {
+      first_row += sample.r;
+      ++count;
+    }
+  if (count == 0) return;
+  const double shift = kFrontShift * first_row / count;
+  for (OpeningSample& sample : samples)
+    sample.rate /= sample.row == 1 ? kFirstRowExcess : std::sqrt(std::max(0.5, 1 - shift / sample.r));
+}
+
+}  // namespace
+
+NodeLinks::NodeLinks(const TriMesh& mesh) : first_(mesh.node_count() + 1, 0) {
+  std::vector<std::pair<NodeId, NodeId>> pairs;
+  pairs.reserve(6 * mesh.triangle_count());
+  for (const auto& c : mesh.corners)
+    for (int k = 0; k < 3; ++k) {
+      pairs.emplace_back(c[k], c[(k + 1) % 3]);
+      pairs.emplace_back(c[(k + 1) % 3], c[k]);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  targets_.reserve(pairs.size());
+  for (const auto& [from, to] : pairs) {
+    ++first_[from.index() + 1];
+    targets_.push_back(to);
+  }
+  for (std::size_t i = 1; i < first_.size(); ++i)
+    first_[i] += first_[i - 1];
+}
+
+std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
+                              const IdVector<NodeId, Vec3>& opening) {
+  std::vector<bool> marks(crack.node_count(), false);
+  const auto neighbours = triangle_neighbours(crack);
+  for (std::size_t t = 0; t < crack.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      if (neighbours[TriId(t)][k].valid()) continue;
+      const auto& c = crack.corners[TriId(t)];
+      for (NodeId node : {c[k], c[(k + 1) % 3]})
+        if (opening[node].isZero(0)) marks[node.index()] = true;
+    }
+  for (NodeId node : front.nodes)
+    marks[node.index()] = true;
+  return marks;
+}
+
+std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const Front& front,
+                             const std::vector<bool>& on_front) {
+  std::vector<int> rows(crack.node_count(), 0);
+  std::vector<NodeId> layer = front.nodes;
+  for (int row = 1; row <= kMostRows && !layer.empty(); ++row) {
+    std::vector<NodeId> next;
+    for (NodeId from : layer)
+      for (const NodeId* to = links.begin(from); to != links.end(from); ++to) {
+        if (on_front[to->index()] || rows[to->index()] != 0) continue;
+        rows[to->index()] = row;
+        next.push_back(*to);
+      }
+    layer = std::move(next);
+  }
+  return rows;
+}
+
+std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
+                                          std::size_t i, const std::vector<int>& rows,
+                                          const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
+  const double h = mean_edge_length(crack, front, i);
+  std::vector<OpeningSample> samples;
+  if (!(h > 0)) return samples;
+  for (NodeId node : nodes_behind(crack, links, front, i, rows, (kReachBehind + kReachAlong) * h)) {
+    const FrontFoot foot = closest_foot(crack, front, crack.positions[node], edges_around(i, 2));
+    OpeningSample sample;
+    sample.r = foot.distance / h;
+    sample.s = along_front(crack, front, i, foot) / h;
+    if (!(sample.r > 1e-3) || sample.r > kReachBehind || std::abs(sample.s) >= kReachAlong) continue;
+    const FrontFrame frame = frame_at(front, foot);
+    sample.row = rows[node.index()];
+    const Vec3 du = opening[node] / std::sqrt(foot.distance);
+    sample.rate = {du.dot(frame.e1), du.dot(frame.e2), du.dot(frame.e3)};
+    samples.push_back(sample);
+  }
+  if (galerkin_openings) remove_element_bias(samples);
+  return samples;
+}
+
+bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings, Vec3& rate) {
+  if (samples.empty()) return false;
+  using Normal = Eigen::Matrix4d;
+  Normal normal = Normal::Zero();
+  Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+  double total = 0;
+  for (const OpeningSample& sample : samples) {
+    const double w = weight(sample, galerkin_openings);
+    total += w;
+  }
+  if (!(total > 0)) return false;
+  for (const OpeningSample& sample : samples) {
+    const Eigen::Vector4d row(1, sample.s, sample.s * sample.s, sample.r);
+    const double w = weight(sample, galerkin_openings) / total;
+    normal += w * row * row.transpose();
+    right += w * row * sample.rate.transpose();
+  }
+  for (int k = 1; k < 4; ++k)
+    normal(k, k) += kRidge[k - 1];
+  if (galerkin_openings) normal(3, 3) += kGalerkinRidge;
+  rate = normal.ldlt().solve(right).row(0).transpose();
+  return rate.allFinite();
+}
+
+}  // namespace conchoid

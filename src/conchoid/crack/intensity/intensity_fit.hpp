@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/crack/front/front.hpp"
+
+namespace conchoid {
+
+/// Nodes joined by an edge to each node, ascending, as one flat array.
+class NodeLinks {
+ public:
+  explicit NodeLinks(const TriMesh& mesh);
+  const NodeId* begin(NodeId n) const { return targets_.data() + first_[n.index()]; }
+  const NodeId* end(NodeId n) const { return targets_.data() + first_[n.index() + 1]; }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<NodeId> targets_;
+};
+
+/// True for nodes that no √r law behind `front` applies to: its own nodes, and nodes of other fronts
+/// (boundary nodes that do not open).
+std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
+                              const IdVector<NodeId, Vec3>& opening);
+
+/// Row of each node behind the front: 1 for a node joined to a node of the front by an edge, 2 for the next
+/// row … 0 for marked nodes and nodes farther than the rows searched.
+std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const Front& front,
+                             const std::vector<bool>& on_front);
+
+/// What a piecewise linear Galerkin solution is off by near the front, the same on every mesh however fine
+/// (measured on penny-shaped cracks of 54 … 1536 triangles, docs/verification.md): from the second row on it
+/// is the exact opening of a front that lies kFrontShift × (distance of the first row) behind the true one;
+/// the first row lies kFirstRowExcess above the exact opening where the mesh is regular and scatters with the
+/// mesh pattern, so it counts kFirstRowWeight only.
+inline constexpr double kFrontShift = 0.10;
+inline constexpr double kFirstRowExcess = 1.022;
+inline constexpr double kFirstRowWeight = 0.02;
+
+/// One opening sample behind a front node; lengths divided by the local front edge length h.
+struct OpeningSample {
+  int row = 1;               ///< row of nodes it belongs to
+  double r = 0;              ///< distance from the front / h
+  double s = 0;              ///< position of the foot along the front / h, 0 at the front node
+  Vec3 rate = Vec3::Zero();  ///< Δu/√r in the frame at the foot [√m]
+};
+
+/// Samples around node i of the front, nearest rows first found through the mesh: |s| ≤ 1.6 h, r ≤ 3.6 h.
+std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
+                                          std::size_t i, const std::vector<int>& rows,
+                                          const IdVector<NodeId, Vec3>& opening, bool galerkin_openings);
+
+/// Fits rate(r, s) = A + A' s + A" s² + B r by weighted least squares and returns A in `rate`; false without
+/// a sample.
+bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings, Vec3& rate);
+
+}  // namespace conchoid

@@ -1,0 +1,122 @@
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+#include "conchoid/formats/format_bytes.hpp"
+#include "conchoid/formats/format_readers.hpp"
+#include "conchoid/formats/mesh_text.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr std::size_t header_size = 80, record_size = 50;
+
+/// STL repeats every vertex in each of its triangles: equal coordinates become one node.
+class VertexMerger {
+ public:
+  explicit VertexMerger(TriMesh& mesh) : mesh_(mesh) {}
+  NodeId operator()(const Vec3& x) {
+    const auto [found, inserted] =
+        ids_.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, NodeId());  // −0 is 0
+    if (inserted) found->second = mesh_.positions.add(x);
+    return found->second;
+  }
+
+ private:
+  TriMesh& mesh_;
+  std::map<std::array<double, 3>, NodeId> ids_;
+};
+
+TriMesh read_binary(std::string_view bytes, const std::string& file) {
+  const auto count = from_bytes<std::uint32_t>(bytes.substr(header_size), std::endian::little);
+  TriMesh mesh;
+  VertexMerger merge(mesh);
+  mesh.corners.reserve(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    std::string_view record = bytes.substr(header_size + 4 + t * record_size + 12);
+    std::array<NodeId, 3> corners;
+    for (NodeId& corner : corners) {
+      Vec3 x;
+      for (int k = 0; k < 3; ++k)
+        x[k] = from_bytes<float>(record.substr(4 * static_cast<std::size_t>(k)), std::endian::little);
+      if (!x.allFinite())
+        fail_in_file(file,
+                     "triangle " + std::to_string(t) + " has a coordinate that is not finite; repair it");
+      corner = merge(x);
+      record = record.substr(12);
+    }
+    mesh.corners.push_back(corners);
+  }
+  return mesh;
+}
+
+TriMesh read_ascii(std::string_view bytes, const std::string& file) {
+  TriMesh mesh;
+  VertexMerger merge(mesh);
+  TextScanner scan(bytes, file);
+  std::vector<NodeId> loop;
+  bool ended = false, inside = false;
+  while (scan.next_line()) {
+    const std::string_view keyword = scan.next_word();
+    if (keyword == "outer") {
+      loop.clear();
+      inside = true;
+    } else if (keyword == "vertex") {
+      if (!inside) scan.fail("a vertex outside of 'outer loop'");
+      Vec3 x;
+      for (int k = 0; k < 3; ++k)
+        x[k] = scan.number(scan.next_word(), "vertex coordinate");
+      loop.push_back(merge(x));
+    } else if (keyword == "endloop") {
+      if (loop.size() != 3)
+        scan.fail("a facet has " + std::to_string(loop.size()) + " vertices instead of three");
+      add_polygon(mesh, loop);
+      inside = false;
+    } else if (keyword == "endsolid") {
+      ended = true;
+    } else if (keyword == "solid") {
+      ended = false;
+    } else if (keyword != "facet" && keyword != "endfacet") {
+      scan.fail("an unknown keyword; the file is not an ascii .stl or it is damaged");
+    }
+  }
+  if (!ended || inside) scan.fail("the file ends without 'endsolid'; it is truncated");
+  return mesh;
+}
+
+}  // namespace
+
+TriMesh read_stl(std::string_view bytes, const std::string& file) {
+  // Binary files may start with 'solid' too: the size that the triangle count implies decides.
+  const bool has_count = bytes.size() >= header_size + 4;
+  const std::uint64_t count =
+      has_count ? from_bytes<std::uint32_t>(bytes.substr(header_size), std::endian::little) : 0;
+  if (has_count && bytes.size() == header_size + 4 + count * record_size) return read_binary(bytes, file);
+  if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos)
+    return read_ascii(bytes, file);
+  if (!has_count) fail_in_file(file, "is too short to be a .stl file; it is truncated or of another format");
+  fail_in_file(file, "the header promises " + std::to_string(count) +
+                         " triangles but the file has room for " +
+                         std::to_string((bytes.size() - header_size - 4) / record_size) +
+                         "; it is truncated, damaged or not a .stl file");
+}
+
+void write_stl(std::ostream& out, const TriMesh& mesh) {
+  std::array<char, header_size> header{};
+  constexpr std::string_view title = "binary STL, written by conchoid";
+  std::copy(title.begin(), title.end(), header.begin());
+  out.write(header.data(), header.size());
+  write_little_endian(out, static_cast<std::uint32_t>(mesh.triangle_count()));
+  auto write_vector = [&](const Vec3& x) {
+    for (int k = 0; k < 3; ++k)
+      write_little_endian(out, static_cast<float>(x[k]));
+  };
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    write_vector(unit_normal(mesh, TriId(t)));
+    for (const Vec3& x : mesh.triangle(TriId(t)))
+      write_vector(x);
+    write_little_endian(out, std::uint16_t{0});
+  }
+}
+
+}  // namespace conchoid

@@ -1,0 +1,90 @@
+#include "conchoid/formats/formats.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+
+#include "conchoid/core/atomic_file.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/formats/format_readers.hpp"
+#include "conchoid/formats/mesh_text.hpp"
+
+namespace conchoid {
+namespace {
+
+struct Format {
+  std::string_view ending;
+  AttributedMesh (*read)(std::string_view, const std::string&);
+  void (*write)(std::ostream&, const TriMesh&);
+};
+
+/// A format that knows shapes only.
+template <TriMesh (*read)(std::string_view, const std::string&)>
+AttributedMesh bare(std::string_view bytes, const std::string& file) {
+  return {read(bytes, file), {}};
+}
+
+constexpr std::array<Format, 4> formats = {{{".ply", read_ply, write_ply},
+                                            {".obj", read_obj, write_obj},
+                                            {".stl", bare<read_stl>, write_stl},
+                                            {".off", bare<read_off>, write_off}}};
+
+const Format& format_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Format& format : formats)
+    if (format.ending == ending) return format;
+  fail_in_file(path.string(), "unknown mesh format '" + ending + "'; use .ply, .obj, .stl or .off");
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    fail_in_file(path.string(), "there is no such mesh file; check the path");
+  if (std::filesystem::is_directory(status))
+    fail_in_file(path.string(), "is a folder, not a mesh file; check the path");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail_in_file(path.string(), "the mesh file cannot be opened; check its permissions");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::string bytes;
+  if (!error) bytes.resize(size);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (error || in.gcount() != static_cast<std::streamsize>(bytes.size()))
+    fail_in_file(path.string(), "the mesh file cannot be read to its end");
+  return bytes;
+}
+
+}  // namespace
+
+AttributedMesh read_surface(const std::filesystem::path& path) {
+  const Format& format = format_of(path);
+  const std::string bytes = bytes_of(path);
+  const std::string file = path.string();
+  if (bytes.empty()) fail_in_file(file, "the mesh file is empty");
+  AttributedMesh surface = format.read(bytes, file);
+  const TriMesh& mesh = surface.mesh;
+  if (mesh.triangle_count() == 0)
+    fail_in_file(file, "the mesh has no triangles; export it as a triangulated surface");
+  for (std::size_t n = 0; n < mesh.node_count(); ++n)
+    if (!mesh.positions[NodeId(n)].allFinite())
+      fail_in_file(file, "vertex " + std::to_string(n) + " has a coordinate that is not finite; repair it");
+  return surface;
+}
+
+TriMesh read_mesh(const std::filesystem::path& path) {
+  return read_surface(path).mesh;
+}
+
+void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
+  const Format& format = format_of(path);
+  AtomicFile file(path);
+  format.write(file.stream(), mesh);
+  file.commit();
+}
+
+}  // namespace conchoid

@@ -1,0 +1,93 @@
+#include "conchoid/formats/mesh_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "conchoid/core/error.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+/// The word as it may stand in a message: short and printable.
+std::string quoted(std::string_view word) {
+  std::string text = "'";
+  for (char c : word.substr(0, 24))
+    text += c >= 32 && c < 127 ? c : '?';
+  return text + (word.size() > 24 ? "…'" : "'");
+}
+
+}  // namespace
+
+bool TextScanner::next_line(char comment) {
+  while (!text_.empty()) {
+    const std::size_t end = text_.find('\n');
+    current_ = text_.substr(0, end);
+    text_ = end == std::string_view::npos ? std::string_view() : text_.substr(end + 1);
+    ++line_;
+    if (comment != '\0') current_ = current_.substr(0, current_.find(comment));
+    if (current_.find_first_not_of(blanks) != std::string_view::npos) return true;
+  }
+  current_ = {};
+  return false;
+}
+
+std::string_view TextScanner::next_word() {
+  const std::size_t begin = current_.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) {
+    current_ = {};
+    return {};
+  }
+  const std::size_t end = std::min(current_.find_first_of(blanks, begin), current_.size());
+  const std::string_view word = current_.substr(begin, end - begin);
+  current_ = current_.substr(end);
+  return word;
+}
+
+std::string_view TextScanner::next_word_across(char comment, const char* what) {
+  while (true) {
+    if (const std::string_view word = next_word(); !word.empty()) return word;
+    if (!next_line(comment)) fail(std::string("the file ends where ") + what + " should be; it is truncated");
+  }
+}
+
+double TextScanner::number(std::string_view word, const char* what) const {
+  std::string_view digits = word;
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (word.empty()) fail(std::string(what) + " is missing");
+  if (error == std::errc::result_out_of_range)
+    fail(std::string(what) + " " + quoted(word) + " is too large or too small a number");
+  if (error != std::errc() || end != digits.data() + digits.size())
+    fail(std::string(what) + " " + quoted(word) + " is not a number");
+  if (!std::isfinite(value))
+    fail(std::string(what) + " " + quoted(word) + " is not finite; repair the coordinates");
+  return value;
+}
+
+std::int64_t TextScanner::integer(std::string_view word, const char* what) const {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (word.empty()) fail(std::string(what) + " is missing");
+  if (error != std::errc() || end != word.data() + word.size())
+    fail(std::string(what) + " " + quoted(word) + " is not a whole number");
+  return value;
+}
+
+void TextScanner::fail(const std::string& message) const {
+  fail_in_file(file_, "line " + std::to_string(line_) + ": " + message);
+}
+
+void fail_in_file(const std::string& file, const std::string& message) {
+  throw InputError(file + ": " + message);
+}
+
+void add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon) {
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+    mesh.corners.push_back({polygon[0], polygon[k - 1], polygon[k]});
+}
+
+}  // namespace conchoid

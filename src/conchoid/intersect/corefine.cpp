@@ -1,0 +1,499 @@
+#include "conchoid/intersect/corefine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/intersect/corefine_merge.hpp"
+#include "conchoid/intersect/corefine_pairs.hpp"
+#include "conchoid/intersect/predicates.hpp"
+#include "conchoid/intersect/retriangulate.hpp"
+
+namespace conchoid {
+namespace {
+
+using Corners = std::array<NodeId, 3>;
+using Points = std::array<const PerturbedPoint*, 3>;
+
+/// Where an edge of one mesh passes through a triangle of the other: a node of the mouth.
+struct Key {
+  enum Kind : std::uint8_t { sheet_edge, surface_edge } kind;
+  Edge edge;
+  TriId triangle;
+  friend auto operator<=>(const Key&, const Key&) = default;
+};
+
+/// A piece of the mouth: where one surface triangle and one sheet triangle intersect. Inside lies to the left
+/// of from → to, seen from the side the sheet's normal points to.
+struct Segment {
+  TriId surface, sheet;
+  Key from, to;
+  std::vector<NodeId> path;  ///< from, crossings with other segments (only if the sheet or the surface passes
+                             ///< through itself), to
+};
+
+class Corefinement {
+ public:
+  Corefinement(const TriMesh& surface, const TriMesh& sheet)
+      : surface_(surface),
+        sheet_(sheet),
+        surface_points_(perturbed_points(surface, Role::surface, 0)),
+        sheet_points_(
+            perturbed_points(sheet, Role::sheet, static_cast<std::uint32_t>(surface.node_count()))) {}
+
+  CutComplex run() {
+    find_segments();
+    make_nodes();
+    join_crossings(Key::surface_edge);
+    join_crossings(Key::sheet_edge);
+    cut_surface();
+    cut_sheet();
+    return keep_inside();
+  }
+  /// Per node of the complex that run() returned.
+  IdVector<NodeId, SurfaceSupport> supports() const { return supports_; }
+
+ private:
+  Points surface_triangle(TriId t) const { return triangle(surface_, surface_points_, t); }
+  Points sheet_triangle(TriId s) const { return triangle(sheet_, sheet_points_, s); }
+  static Points triangle(const TriMesh& mesh, const std::vector<PerturbedPoint>& points, TriId t) {
+    const Corners& c = mesh.corners[t];
+    return {&points[c[0].index()], &points[c[1].index()], &points[c[2].index()]};
+  }
+
+  static std::array<int, 3> sides(const Points& plane, const Points& of) {
+    std::array<int, 3> s;
+    for (int k = 0; k < 3; ++k)
+      s[k] = orientation(*plane[0], *plane[1], *plane[2], *of[k]);
+    return s;
+  }
+
+  static bool pierces(const PerturbedPoint& p, const PerturbedPoint& q, const Points& t) {
+    const int s = orientation(p, q, *t[0], *t[1]);
+    return s == orientation(p, q, *t[1], *t[2]) && s == orientation(p, q, *t[2], *t[0]);
+  }
+
+  void find_segments() {
+    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_))
+      intersect(t, s);
+  }
+
+  void intersect(TriId t, TriId s) {
+    const Points T = surface_triangle(t), S = sheet_triangle(s);
+    const auto sheet_side = sides(T, S);
+    if (sheet_side[0] == sheet_side[1] && sheet_side[1] == sheet_side[2]) return;
+    const auto surface_side = sides(S, T);
+    if (surface_side[0] == surface_side[1] && surface_side[1] == surface_side[2]) return;
+    struct End {
+      Key key;
+      bool inside_on_right;  ///< of the segment that starts here
+    };
+    std::vector<End> ends;
+    for (int k = 0; k < 3; ++k) {
+      const int j = (k + 1) % 3;
+      if (sheet_side[k] != sheet_side[j] && pierces(*S[k], *S[j], T))
+        ends.push_back(
+            {{Key::sheet_edge, {sheet_.corners[s][k], sheet_.corners[s][j]}, t}, sheet_side[j] < 0});
+      if (surface_side[k] != surface_side[j] && pierces(*T[k], *T[j], S))
+        ends.push_back(
+            {{Key::surface_edge, {surface_.corners[t][k], surface_.corners[t][j]}, s}, surface_side[j] > 0});
+    }
+    if (ends.empty()) return;
+    if (ends.size() != 2 || ends[0].inside_on_right == ends[1].inside_on_right)
+      throw ComputationError(
+          "surface triangle " + std::to_string(t.value) + " and crack triangle " + std::to_string(s.value) +
+          " do not intersect in a segment: is one of them without area or are their nodes not finite?");
+    const int from = ends[0].inside_on_right ? 1 : 0;
+    segments_.push_back({t, s, ends[from].key, ends[1 - from].key, {}});
+  }
+
+  Points edge_triangle(const Key& key) const {
+    return key.kind == Key::sheet_edge ? surface_triangle(key.triangle) : sheet_triangle(key.triangle);
+  }
+  const std::vector<PerturbedPoint>& edge_points(const Key& key) const {
+    return key.kind == Key::sheet_edge ? sheet_points_ : surface_points_;
+  }
+
+  /// Work numbering: surface nodes, all sheet nodes, mouth nodes by key.
+  void make_nodes() {
+    for (const Segment& s : segments_) {
+      keys_.push_back(s.from);
+      keys_.push_back(s.to);
+    }
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+    positions_.insert(positions_.end(), surface_.positions.begin(), surface_.positions.end());
+    positions_.insert(positions_.end(), sheet_.positions.begin(), sheet_.positions.end());
+    for (const Key& key : keys_) {
+      const auto& points = edge_points(key);
+      const PerturbedPoint &p = points[key.edge.a.index()], &q = points[key.edge.b.index()];
+      crossings_.push_back(crossing(p, q, edge_triangle(key)));
+      positions_.push_back(crossings_.back().point(p, q));
+    }
+    for (Segment& s : segments_)
+      s.path = {node(s.from), node(s.to)};
+    order_along_edges();
+  }
+
+  NodeId node(std::size_t key) const { return NodeId(surface_.node_count() + sheet_.node_count() + key); }
+  std::size_t key_index(const Key& key) const {
+    return static_cast<std::size_t>(std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin());
+  }
+  NodeId node(const Key& key) const { return node(key_index(key)); }
+
+  /// Nodes on one edge follow each other in keys_; along_edge_ holds them in their order from edge.a to
+  /// edge.b.
+  void order_along_edges() {
+    along_edge_.resize(keys_.size());
+    std::iota(along_edge_.begin(), along_edge_.end(), 0);
+    for (std::size_t begin = 0; begin < keys_.size();) {
+      std::size_t end = begin + 1;
+      while (end < keys_.size() && keys_[end].kind == keys_[begin].kind &&
+             keys_[end].edge == keys_[begin].edge)
+        ++end;
+      std::sort(along_edge_.begin() + static_cast<long>(begin), along_edge_.begin() + static_cast<long>(end),
+                [&](std::size_t i, std::size_t j) { return i != j && before(i, j); });
+      begin = end;
+    }
+  }
+
+  bool before(std::size_t i, std::size_t j) const {
+    const double left = crossings_[i].to_p * crossings_[j].to_q,
+                 right = crossings_[j].to_p * crossings_[i].to_q;
+    if (std::abs(left - right) > 1e-13 * std::max(left, right)) return left < right;
+    const auto& points = edge_points(keys_[i]);
+    return crosses_before(points[keys_[i].edge.a.index()], points[keys_[i].edge.b.index()],
+                          edge_triangle(keys_[i]), edge_triangle(keys_[j]));
+  }
+
+  std::vector<NodeId> nodes_on_edge(Key::Kind kind, NodeId from, NodeId to) const {
+    const Edge edge(from, to);
+    std::vector<NodeId> nodes;
+    for (std::size_t i = key_index({kind, edge, TriId(0)});
+         i < keys_.size() && keys_[i].kind == kind && keys_[i].edge == edge; ++i)
+      nodes.push_back(node(along_edge_[i]));
+    if (from != edge.a) std::reverse(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  /// What cuts one triangle. Edges of the surface are cut by the sheet (kind surface_edge) and the other way
+  /// round.
+  TriangleCut triangle_cut(Key::Kind kind, TriId t) const {
+    const bool of_surface = kind == Key::surface_edge;
+    const std::size_t node_offset = of_surface ? 0 : surface_.node_count();
+    Corners ascending = (of_surface ? surface_ : sheet_).corners[t];
+    std::sort(ascending.begin(), ascending.end());
+    TriangleCut cut;
+    for (int k = 0; k < 3; ++k) {
+      cut.corners[k] = NodeId(ascending[k].index() + node_offset);
+      cut.on_edge[k] = nodes_on_edge(kind, ascending[k], ascending[(k + 1) % 3]);
+    }
+    for (const std::size_t i : (of_surface ? on_surface_ : on_sheet_)[t]) {
+      const auto& path = segments_[i].path;
+      for (std::size_t k = 0; k + 1 < path.size(); ++k)
+        cut.segments.emplace_back(path[k], path[k + 1]);
+      for (std::size_t k = 1; k + 1 < path.size(); ++k)
+        cut.through.push_back({path[k - 1], path[k], path[k + 1]});
+    }
+    cut.turn = [=, this](NodeId before, NodeId at, NodeId after) { return turn(kind, t, before, at, after); };
+    return cut;
+  }
+
+  /// Sense of the turn that a curve in triangle t takes where it passes from one triangle of the other mesh
+  /// to the next, across their common edge: the dihedral angle there decides.
+  int turn(Key::Kind kind, TriId t, NodeId before, NodeId at, NodeId after) const {
+    const bool of_surface = kind == Key::surface_edge;
+    const std::size_t first_key = node(std::size_t{0}).index();
+    if (at.index() < first_key || at.index() >= first_key + keys_.size()) return 0;
+    const Edge edge = keys_[at.index() - first_key].edge;
+    const auto other_triangle = [&](NodeId end) {
+      for (const std::size_t i : (of_surface ? on_surface_ : on_sheet_)[t])
+        if (has_step(segments_[i], Edge(end, at)))
+          return of_surface ? segments_[i].sheet : segments_[i].surface;
+      return TriId();
+    };
+    const TriId from = other_triangle(before), to = other_triangle(after);
+    if (!from.valid() || !to.valid() || from == to) return 0;
+    const TriMesh& mesh = of_surface ? sheet_ : surface_;
+    const auto& points = of_surface ? sheet_points_ : surface_points_;
+    const Corners &c = mesh.corners[from], &d = mesh.corners[to];
+    const auto opposite =
+        std::find_if(d.begin(), d.end(), [&](NodeId n) { return n != edge.a && n != edge.b; });
+    const auto apex = std::find_if(c.begin(), c.end(), [&](NodeId n) { return n != edge.a && n != edge.b; });
+    const NodeId end =
+        c[static_cast<std::size_t>(apex - c.begin() + 2) % 3];  // of the edge as `from` runs through it
+    const Points F = triangle(mesh, points, from);
+    Points X = of_surface ? surface_triangle(t) : sheet_triangle(t);
+    std::sort(X.begin(), X.end(), [](const auto* x, const auto* y) { return x->id < y->id; });
+    // seen from X's normal, the side of `from` its normal points away from lies left of the curve if `end`
+    // lies above X
+    const bool back_is_left = orientation(*X[0], *X[1], *X[2], points[end.index()]) > 0;
+    const bool goes_back = orientation(*F[0], *F[1], *F[2], points[opposite->index()]) < 0;
+    return back_is_left == goes_back ? 1 : -1;
+  }
+
+  /// A sheet that passes through itself draws mouth curves that cross; they get a common node there.
+  void join_crossings(Key::Kind kind) {
+    auto& lists = kind == Key::surface_edge ? on_surface_ : on_sheet_;
+    lists.resize((kind == Key::surface_edge ? surface_ : sheet_).triangle_count());
+    for (std::size_t i = 0; i < segments_.size(); ++i)
+      lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
+    for (std::size_t t = 0; t < lists.size(); ++t) {
+      const std::vector<std::size_t>& own = lists[TriId(t)];
+      if (own.size() < 2) continue;
+      for (const CrossingSegments& c : crossing_segments(positions_, triangle_cut(kind, TriId(t)))) {
+        const auto with = [&](const Edge& e) -> Segment& {
+          return segments_[*std::find_if(own.begin(), own.end(),
+                                         [&](std::size_t i) { return has_step(segments_[i], e); })];
+        };
+        join(with(c.first), with(c.second));
+      }
+    }
+  }
+
+  static bool has_step(const Segment& s, const Edge& e) {
+    const auto a = std::find(s.path.begin(), s.path.end(), e.a),
+               b = std::find(s.path.begin(), s.path.end(), e.b);
+    return a != s.path.end() && b != s.path.end();
+  }
+
+  /// Node where two segments come closest.
+  void join(Segment& s, Segment& t) {
+    const auto& [p, q] = std::pair(positions_[s.path.front()], positions_[s.path.back()]);
+    const auto& [v, w] = std::pair(positions_[t.path.front()], positions_[t.path.back()]);
+    const Vec3 a = q - p, b = w - v, n = cross(a, b);
+    const double share =
+        n.squaredNorm() > 0 ? std::clamp(cross(v - p, b).dot(n) / n.squaredNorm(), 0.0, 1.0) : 0.5;
+    const NodeId node = positions_.add(Vec3(p + share * a));
+    for (Segment* x : {&s, &t}) {
+      const Vec3 start = positions_[x->path.front()], along = positions_[x->path.back()] - start;
+      const auto place = std::find_if(x->path.begin() + 1, x->path.end() - 1, [&](NodeId other) {
+        return (positions_[other] - start).dot(along) > (positions_[node] - start).dot(along);
+      });
+      x->path.insert(place, node);
+    }
+  }
+
+  /// Pieces of one cut triangle, oriented like it; in canonical order and rotation, the same for a reflected
+  /// mesh.
+  std::vector<Corners> cut_triangle(Key::Kind kind, TriId t) const {
+    const Corners& corners = (kind == Key::surface_edge ? surface_ : sheet_).corners[t];
+    Corners ascending = corners;
+    std::sort(ascending.begin(), ascending.end());
+    const bool even =
+        corners[1] ==
+        ascending[(std::find(ascending.begin(), ascending.end(), corners[0]) - ascending.begin() + 1) % 3];
+    std::vector<Corners> pieces = retriangulate(positions_, triangle_cut(kind, t));
+    for (Corners& p : pieces) {
+      std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+      if (!even) std::swap(p[1], p[2]);
+    }
+    std::sort(pieces.begin(), pieces.end(), [](Corners x, Corners y) {
+      std::sort(x.begin(), x.end());
+      std::sort(y.begin(), y.end());
+      return x < y;
+    });
+    return pieces;
+  }
+
+  void cut_surface() {
+    for (std::size_t i = 0; i < surface_.triangle_count(); ++i) {
+      const TriId t(i);
+      if (on_surface_[t].empty()) {
+        result_.surface.push_back(surface_.corners[t]);
+        result_.surface_parent.push_back(t);
+        continue;
+      }
+      for (const Corners& p : cut_triangle(Key::surface_edge, t)) {
+        result_.surface.push_back(p);
+        result_.surface_parent.push_back(t);
+      }
+    }
+  }
+
+  void cut_sheet() {
+    for (std::size_t i = 0; i < sheet_.triangle_count(); ++i) {
+      const TriId s(i);
+      if (on_sheet_[s].empty()) {
+        Corners c = sheet_.corners[s];
+        for (NodeId& id : c)
+          id = NodeId(id.index() + surface_.node_count());
+        sheet_pieces_.push_back(c);
+        sheet_parents_.push_back(s);
+        continue;
+      }
+      for (const Corners& p : cut_triangle(Key::sheet_edge, s)) {
+        sheet_pieces_.push_back(p);
+        sheet_parents_.push_back(s);
+      }
+    }
+  }
+
+  struct Half {
+    Edge edge;
+    bool along;  ///< the piece runs from edge.a to edge.b
+    std::size_t piece;
+  };
+
+  /// Which sheet pieces lie inside: spreads from the mouth, whose left side is inside; parts without a mouth
+  /// are tested by a ray.
+  std::vector<bool> inside_pieces() const {
+    std::vector<Half> halves;
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId a = sheet_pieces_[p][k], b = sheet_pieces_[p][(k + 1) % 3];
+        halves.push_back({Edge(a, b), a < b, p});
+      }
+    std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
+      return x.edge != y.edge ? x.edge < y.edge : x.piece < y.piece;
+    });
+    std::vector<std::pair<Edge, bool>> mouth;  // edge, whether inside is left of a → b
+    for (const Segment& s : segments_)
+      for (std::size_t k = 0; k + 1 < s.path.size(); ++k)
+        mouth.emplace_back(Edge(s.path[k], s.path[k + 1]), s.path[k] < s.path[k + 1]);
+    std::sort(mouth.begin(), mouth.end());
+    std::vector<std::size_t> parent(sheet_pieces_.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::size_t p) {
+      while (parent[p] != p)
+        p = parent[p] = parent[parent[p]];
+      return p;
+    };
+    std::vector<int> votes(sheet_pieces_.size(), 0);
+    auto m = mouth.begin();
+    for (std::size_t begin = 0; begin < halves.size();) {
+      std::size_t end = begin + 1;
+      while (end < halves.size() && halves[end].edge == halves[begin].edge)
+        ++end;
+      if (end - begin > 2) throw InputError("the crack sheet has an edge with more than two triangles");
+      while (m != mouth.end() && m->first < halves[begin].edge)
+        ++m;
+      const bool is_mouth = m != mouth.end() && m->first == halves[begin].edge;
+      if (is_mouth)
+        for (std::size_t i = begin; i < end; ++i)
+          votes[halves[i].piece] += halves[i].along == m->second ? 1 : -1;
+      else if (end - begin == 2)
+        parent[root(halves[begin].piece)] = root(halves[begin + 1].piece);
+      begin = end;
+    }
+    std::vector<int> total(sheet_pieces_.size(), 0);
+    std::vector<bool> touched(sheet_pieces_.size(), false), inside(sheet_pieces_.size(), false);
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p) {
+      total[root(p)] += votes[p];
+      if (votes[p] != 0) touched[root(p)] = true;
+    }
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      if (root(p) == p) inside[p] = touched[p] ? total[p] > 0 : ray_says_inside(sheet_pieces_[p][0]);
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      inside[p] = inside[root(p)];
+    return inside;
+  }
+
+  /// Parity of the surface triangles between a sheet node and a point far away.
+  bool ray_says_inside(NodeId work_id) const {
+    const PerturbedPoint& p = sheet_points_[work_id.index() - surface_.node_count()];
+    const Box box = bounding_box(surface_);
+    PerturbedPoint far;
+    far.x = p.x + 4 * (box.high - p.x).cwiseAbs() + 2 * (box.high - box.low);
+    far.id = static_cast<std::uint32_t>(surface_.node_count() + sheet_.node_count());
+    bool inside = false;
+    for (std::size_t t = 0; t < surface_.triangle_count(); ++t) {
+      const Points T = surface_triangle(TriId(t));
+      bool before_start = true;  // the ray runs towards +x +y +z
+      for (int axis = 0; axis < 3 && before_start; ++axis)
+        before_start = T[0]->x[axis] >= p.x[axis] || T[1]->x[axis] >= p.x[axis] || T[2]->x[axis] >= p.x[axis];
+      if (!before_start) continue;
+      if (orientation(*T[0], *T[1], *T[2], p) != orientation(*T[0], *T[1], *T[2], far) && pierces(p, far, T))
+        inside = !inside;
+    }
+    return inside;
+  }
+
+  CutComplex keep_inside() {
+    const std::vector<bool> inside = inside_pieces();
+    const std::size_t ns = surface_.node_count();
+    std::vector<bool> used(positions_.size(), false);
+    for (std::size_t i = 0; i < ns; ++i)
+      used[i] = true;
+    for (std::size_t i = ns + sheet_.node_count(); i < positions_.size(); ++i)
+      used[i] = true;
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      if (inside[p])
+        for (const NodeId id : sheet_pieces_[p])
+          used[id.index()] = true;
+    std::vector<NodeId> final_id(positions_.size());
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      if (!used[i]) continue;
+      final_id[i] = result_.positions.add(positions_[NodeId(i)]);
+      const bool of_sheet = i >= ns && i < ns + sheet_.node_count();
+      result_.sheet_node.push_back(of_sheet ? NodeId(i - ns) : NodeId());
+    }
+    result_.surface_node_count = ns;
+    for (Corners& c : result_.surface)
+      for (NodeId& id : c)
+        id = final_id[id.index()];
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p) {
+      if (!inside[p]) continue;
+      Corners c = sheet_pieces_[p];
+      for (NodeId& id : c)
+        id = final_id[id.index()];
+      result_.sheet.push_back(c);
+      result_.sheet_parent.push_back(sheet_parents_[p]);
+    }
+    for (const Segment& s : segments_)
+      for (std::size_t k = 0; k + 1 < s.path.size(); ++k)
+        result_.mouth.emplace_back(final_id[s.path[k].index()], final_id[s.path[k + 1].index()]);
+    std::sort(result_.mouth.begin(), result_.mouth.end());
+    set_supports(final_id);
+    return std::move(result_);
+  }
+
+  void set_supports(const std::vector<NodeId>& final_id) {
+    using enum SurfaceSupport::Kind;
+    supports_.resize(result_.positions.size());
+    for (std::size_t i = 0; i < surface_.node_count(); ++i)
+      supports_[NodeId(i)].kind = vertex;
+    for (std::size_t i = node(keys_.size()).index(); i < final_id.size(); ++i)
+      supports_[final_id[i]].kind = vertex;  // crossings stay where they are
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      SurfaceSupport& support = supports_[final_id[node(k).index()]];
+      support.kind = keys_[k].kind == Key::surface_edge ? edge : face;
+      if (support.kind == edge) {
+        support.edge = keys_[k].edge;
+        continue;
+      }
+      support.face = keys_[k].triangle;
+      const Points T = surface_triangle(support.face);
+      const NodeId a = keys_[k].edge.a;
+      support.outside = orientation(*T[0], *T[1], *T[2], sheet_points_[a.index()]) > 0 ? a : keys_[k].edge.b;
+    }
+  }
+
+  const TriMesh& surface_;
+  const TriMesh& sheet_;
+  std::vector<PerturbedPoint> surface_points_, sheet_points_;
+  std::vector<Segment> segments_;
+  std::vector<Key> keys_;            ///< mouth nodes, sorted
+  std::vector<Crossing> crossings_;  ///< per key
+  std::vector<std::size_t> along_edge_;
+  IdVector<TriId, std::vector<std::size_t>> on_surface_, on_sheet_;  ///< segments per triangle
+  IdVector<NodeId, Vec3> positions_;                                 ///< in work numbering
+  std::vector<Corners> sheet_pieces_;
+  std::vector<TriId> sheet_parents_;
+  CutComplex result_;
+  IdVector<NodeId, SurfaceSupport> supports_;
+};
+
+}  // namespace
+
+CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const CorefineSettings& settings) {
+  Corefinement corefinement(surface, sheet);
+  CutComplex cut = corefinement.run();
+  if (settings.merge > 0) merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge);
+  return cut;
+}
+
+}  // namespace conchoid

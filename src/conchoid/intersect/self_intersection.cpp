@@ -1,0 +1,305 @@
+#include "conchoid/intersect/self_intersection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "conchoid/intersect/expansion.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
+
+/// Sign of ((b−a) × (c−a))·(d−a): + if d lies on the side of abc from which it is seen counter-clockwise.
+/// Floating point with Shewchuk's error bound, exact expansions where that leaves the sign open.
+int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 ab = b - a, ac = c - a, ad = d - a;
+  double determinant = 0, magnitude = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    const double p = ab[l] * ac[m], q = ab[m] * ac[l];
+    determinant += ad[k] * (p - q);
+    magnitude += std::abs(ad[k]) * (std::abs(p) + std::abs(q));
+  }
+  const double bound = (8 + 64 * unit_roundoff) * unit_roundoff * magnitude;
+  if (determinant > bound) return 1;
+  if (-determinant > bound) return -1;
+  if (magnitude == 0) return 0;
+  std::array<Expansion, 3> e_ab, e_ac, e_ad;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    e_ab[k] = Expansion::difference(b[i], a[i]);
+    e_ac[k] = Expansion::difference(c[i], a[i]);
+    e_ad[k] = Expansion::difference(d[i], a[i]);
+  }
+  Expansion exact;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    exact += e_ad[k] * (e_ab[l] * e_ac[m] - e_ab[m] * e_ac[l]);
+  }
+  return exact.sign();
+}
+
+/// Two coordinates of points in a common plane that keep that plane from collapsing.
+struct Projection {
+  int p, q;
+};
+
+Projection projection_of(const Triangle& t) {
+  const Vec3 n = area_vector2(t[0], t[1], t[2]).cwiseAbs();
+  const int drop = n.x() >= n.y() && n.x() >= n.z() ? 0 : n.y() >= n.z() ? 1 : 2;
+  return {(drop + 1) % 3, (drop + 2) % 3};
+}
+
+/// Sign of the area of abc in the projection.
+int turn(const Vec3& a, const Vec3& b, const Vec3& c, Projection pr) {
+  const double left = (b[pr.p] - a[pr.p]) * (c[pr.q] - a[pr.q]);
+  const double right = (b[pr.q] - a[pr.q]) * (c[pr.p] - a[pr.p]);
+  const double determinant = left - right;
+  const double bound = (4 + 32 * unit_roundoff) * unit_roundoff * (std::abs(left) + std::abs(right));
+  if (determinant > bound) return 1;
+  if (-determinant > bound) return -1;
+  if (bound == 0) return 0;
+  auto difference = [&](const Vec3& x, int k) { return Expansion::difference(x[k], a[k]); };
+  return (difference(b, pr.p) * difference(c, pr.q) - difference(b, pr.q) * difference(c, pr.p)).sign();
+}
+
+bool in_triangle(const Vec3& x, const Triangle& t, Projection pr) {
+  const int s0 = turn(t[0], t[1], x, pr), s1 = turn(t[1], t[2], x, pr), s2 = turn(t[2], t[0], x, pr);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+/// x on the line ab: whether between them.
+bool between(const Vec3& x, const Vec3& a, const Vec3& b, Projection pr) {
+  auto within = [&](int k) { return std::min(a[k], b[k]) <= x[k] && x[k] <= std::max(a[k], b[k]); };
+  return within(pr.p) && within(pr.q);
+}
+
+bool coplanar_segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Projection pr) {
+  const int c_side = turn(a, b, c, pr), d_side = turn(a, b, d, pr);
+  const int a_side = turn(c, d, a, pr), b_side = turn(c, d, b, pr);
+  if (c_side * d_side < 0 && a_side * b_side < 0) return true;
+  return (c_side == 0 && between(c, a, b, pr)) || (d_side == 0 && between(d, a, b, pr)) ||
+         (a_side == 0 && between(a, c, d, pr)) || (b_side == 0 && between(b, c, d, pr));
+}
+
+/// Closed segment against closed triangle.
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Triangle& t) {
+  const int p_side = side_of_plane(t[0], t[1], t[2], p), q_side = side_of_plane(t[0], t[1], t[2], q);
+  if (p_side * q_side > 0) return false;
+  if (p_side == 0 && q_side == 0) {
+    const Projection pr = projection_of(t);
+    if (in_triangle(p, t, pr) || in_triangle(q, t, pr)) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (coplanar_segments_meet(p, q, t[k], t[(k + 1) % 3], pr)) return true;
+    return false;
+  }
+  const int s0 = side_of_plane(p, q, t[0], t[1]), s1 = side_of_plane(p, q, t[1], t[2]),
+            s2 = side_of_plane(p, q, t[2], t[0]);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+bool apart(const Triangle& a, const Triangle& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (std::max({a[0][k], a[1][k], a[2][k]}) < std::min({b[0][k], b[1][k], b[2][k]})) return true;
+    if (std::max({b[0][k], b[1][k], b[2][k]}) < std::min({a[0][k], a[1][k], a[2][k]})) return true;
+  }
+  return false;
+}
+
+/// Triangles with no common node.
+bool separate_triangles_meet(const Triangle& a, const Triangle& b) {
+  if (apart(a, b)) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (segment_meets_triangle(a[k], a[(k + 1) % 3], b) || segment_meets_triangle(b[k], b[(k + 1) % 3], a))
+      return true;
+  return false;
+}
+
+/// Triangles v p q and v b c with the common node v. A quick test finds a plane through v that has them on
+/// different sides; if there is a further common point, then also one on the edge opposite of v in one of
+/// them.
+bool triangles_at_node_meet(const Vec3& v, const Vec3& p, const Vec3& q, const Vec3& b, const Vec3& c) {
+  const Vec3 vp = (p - v).normalized(), vq = (q - v).normalized(), vb = (b - v).normalized(),
+             vc = (c - v).normalized();
+  const Vec3 across = (vp + vq).normalized() - (vb + vc).normalized();
+  constexpr double clear = 1e-9;
+  if (std::min(across.dot(vp), across.dot(vq)) > clear && std::max(across.dot(vb), across.dot(vc)) < -clear)
+    return false;
+  return segment_meets_triangle(p, q, {v, b, c}) || segment_meets_triangle(b, c, {v, p, q});
+}
+
+/// Triangles a b c and b a d with the common edge ab meet elsewhere only if they are folded flat onto each
+/// other.
+bool triangles_at_edge_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 n_c = area_vector2(a, b, c), n_d = area_vector2(b, a, d);
+  if (n_c.dot(n_d) > 0) return false;
+  if (side_of_plane(a, b, c, d) != 0) return false;
+  const Projection pr = projection_of({a, b, c});
+  return turn(a, b, c, pr) == turn(a, b, d, pr);
+}
+
+/// Calls report(s, t), s < t, once for each pair of triangles whose boxes overlap, until it returns false:
+/// halves the set along its longest axis again and again; pairs across a cut are found by a sweep over those
+/// that reach it.
+class BoxPairs {
+ public:
+  explicit BoxPairs(const TriMesh& mesh) {
+    boxes_.reserve(mesh.triangle_count());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const Triangle x = mesh.triangle(TriId(t));
+      boxes_.push_back({x[0].cwiseMin(x[1]).cwiseMin(x[2]), x[0].cwiseMax(x[1]).cwiseMax(x[2])});
+    }
+    order_.resize(boxes_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+  }
+
+  template <class Report>
+  void for_each(const Report& report) {
+    stop_ = boxes_.empty();
+    if (!stop_) split(0, order_.size(), report);
+  }
+
+ private:
+  static constexpr std::size_t leaf_size = 8;
+
+  Box box_of(std::size_t begin, std::size_t end) const {
+    Box box = boxes_[order_[begin]];
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      box.low = box.low.cwiseMin(boxes_[order_[i]].low);
+      box.high = box.high.cwiseMax(boxes_[order_[i]].high);
+    }
+    return box;
+  }
+
+  static bool overlap(const Box& a, const Box& b) {
+    return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+  }
+
+  /// Pairs within a range: within its halves, and across them.
+  template <class Report>
+  void split(std::size_t begin, std::size_t end, const Report& report) {
+    if (end - begin <= leaf_size) {
+      for (std::size_t i = begin; i < end && !stop_; ++i)
+        for (std::size_t j = i + 1; j < end && !stop_; ++j)
+          test(order_[i], order_[j], report);
+      return;
+    }
+    const Box box = box_of(begin, end);
+    Eigen::Index axis = 0;
+    (box.high - box.low).maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                     order_.begin() + static_cast<std::ptrdiff_t>(middle),
+                     order_.begin() + static_cast<std::ptrdiff_t>(end), [&](std::size_t s, std::size_t t) {
+                       const double cs = boxes_[s].low[axis] + boxes_[s].high[axis];
+                       const double ct = boxes_[t].low[axis] + boxes_[t].high[axis];
+                       return cs != ct ? cs < ct : s < t;
+                     });
+    split(begin, middle, report);
+    split(middle, end, report);
+    std::vector<std::size_t> left(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  order_.begin() + static_cast<std::ptrdiff_t>(middle));
+    std::vector<std::size_t> right(order_.begin() + static_cast<std::ptrdiff_t>(middle),
+                                   order_.begin() + static_cast<std::ptrdiff_t>(end));
+    across(left, right, axis, report);
+  }
+
+  /// Pairs between two sets: only those whose boxes reach the other set's box, swept along the axis with the
+  /// largest extent besides the one that divides them.
+  template <class Report>
+  void across(std::vector<std::size_t>& left, std::vector<std::size_t>& right, Eigen::Index axis,
+              const Report& report) {
+    auto box_around = [&](const std::vector<std::size_t>& set) {
+      Box box = boxes_[set.front()];
+      for (std::size_t t : set) {
+        box.low = box.low.cwiseMin(boxes_[t].low);
+        box.high = box.high.cwiseMax(boxes_[t].high);
+      }
+      return box;
+    };
+    const Box left_box = box_around(left), right_box = box_around(right);
+    std::erase_if(left, [&](std::size_t t) { return !overlap(boxes_[t], right_box); });
+    std::erase_if(right, [&](std::size_t t) { return !overlap(boxes_[t], left_box); });
+    if (left.empty() || right.empty()) return;
+    Vec3 extent = left_box.high - left_box.low;
+    extent[axis] = -1;
+    Eigen::Index sweep = 0;
+    extent.maxCoeff(&sweep);
+    auto by_low_end = [&](std::size_t s, std::size_t t) {
+      const double ls = boxes_[s].low[sweep], lt = boxes_[t].low[sweep];
+      return ls != lt ? ls < lt : s < t;
+    };
+    std::sort(left.begin(), left.end(), by_low_end);
+    std::sort(right.begin(), right.end(), by_low_end);
+    auto sweep_one_way = [&](const std::vector<std::size_t>& from, const std::vector<std::size_t>& to,
+                             bool also_equal) {
+      std::size_t first = 0;
+      for (std::size_t s : from) {
+        const double low = boxes_[s].low[sweep], high = boxes_[s].high[sweep];
+        while (first < to.size() &&
+               (also_equal ? boxes_[to[first]].low[sweep] < low : boxes_[to[first]].low[sweep] <= low))
+          ++first;
+        for (std::size_t i = first; i < to.size() && boxes_[to[i]].low[sweep] <= high && !stop_; ++i)
+          test(s, to[i], report);
+      }
+    };
+    sweep_one_way(left, right, true);
+    sweep_one_way(right, left, false);
+  }
+
+  template <class Report>
+  void test(std::size_t s, std::size_t t, const Report& report) {
+    if (overlap(boxes_[s], boxes_[t]) && !report(std::min(s, t), std::max(s, t))) stop_ = true;
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<std::size_t> order_;
+  bool stop_ = false;
+};
+
+}  // namespace
+
+bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t) {
+  return triangles_intersect(mesh.positions, mesh.corners[s], mesh.corners[t]);
+}
+
+bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<NodeId, 3> a,
+                         std::array<NodeId, 3> b) {
+  // Bring the common nodes to the front, in the same places of both.
+  std::size_t common = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = common; j < 3; ++j)
+      if (a[i] == b[j]) {
+        std::swap(a[i], a[common]);
+        std::swap(b[j], b[common]);
+        ++common;
+        break;
+      }
+  const auto x = [&](NodeId n) -> const Vec3& { return positions[n]; };
+  switch (common) {
+    case 0:
+      return separate_triangles_meet({x(a[0]), x(a[1]), x(a[2])}, {x(b[0]), x(b[1]), x(b[2])});
+    case 1:
+      return triangles_at_node_meet(x(a[0]), x(a[1]), x(a[2]), x(b[1]), x(b[2]));
+    case 2:
+      return triangles_at_edge_meet(x(a[0]), x(a[1]), x(a[2]), x(b[2]));
+    default:
+      return true;
+  }
+}
+
+std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit) {
+  std::vector<std::pair<TriId, TriId>> found;
+  if (limit == 0) return found;
+  BoxPairs(mesh).for_each([&](std::size_t s, std::size_t t) {
+    if (triangles_intersect(mesh, TriId(s), TriId(t))) found.emplace_back(TriId(s), TriId(t));
+    return found.size() < limit;
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace conchoid

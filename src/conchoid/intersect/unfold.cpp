@@ -1,0 +1,121 @@
+#include "conchoid/intersect/unfold.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "conchoid/intersect/manifold_part.hpp"
+
+namespace conchoid {
+namespace {
+
+/// Triangles around each node, and the nodes to take the middle of.
+struct Stars {
+  IdVector<NodeId, std::vector<TriId>> triangles;
+  IdVector<NodeId, std::vector<NodeId>> neighbours;
+
+  explicit Stars(const TriMesh& sheet) : triangles(sheet.node_count()), neighbours(sheet.node_count()) {
+    std::map<Edge, int> uses;
+    for (std::size_t t = 0; t < sheet.triangle_count(); ++t) {
+      const auto& c = sheet.corners[TriId(t)];
+      for (std::size_t k = 0; k < 3; ++k) {
+        triangles[c[k]].push_back(TriId(t));
+        ++uses[Edge(c[k], c[(k + 1) % 3])];
+      }
+    }
+    IdVector<NodeId, char> on_boundary(sheet.node_count(), 0);
+    for (const auto& [e, count] : uses)
+      if (count == 1) on_boundary[e.a] = on_boundary[e.b] = 1;
+    for (const auto& [e, count] : uses)
+      for (const auto& [n, m] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
+        if (!on_boundary[n] || count == 1) neighbours[n].push_back(m);
+  }
+};
+
+constexpr double steepest = 0.25;  // cosine
+constexpr int kRounds = 40;
+constexpr int kRoundsPerRing = 8;
+
+bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
+  if (star.size() < 2) return false;
+  std::vector<Vec3> normals;
+  for (const TriId t : star)
+    if (const Vec3 n = unit_normal(sheet, t); !n.isZero(0)) normals.push_back(n);
+  const auto hides_some = [&](const Vec3& d) {
+    return std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return n.dot(d) < steepest; });
+  };
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& n : normals)
+    mean += n;
+  return hides_some(mean.normalized()) && hides_some(common_direction(normals));
+}
+
+}  // namespace
+
+Vec3 common_direction(const std::vector<Vec3>& vectors) {
+  std::vector<Vec3> set;  // pieces of one flat face have the same normal
+  for (const Vec3& v : vectors)
+    if (std::none_of(set.begin(), set.end(), [&](const Vec3& w) { return (v - w).squaredNorm() < 1e-20; }))
+      set.push_back(v);
+  Vec3 best = Vec3::Zero();
+  double best_product = 1e-9;
+  const auto consider = [&](const Vec3& toward) {
+    const double length = toward.norm();
+    if (!(length > 1e-12)) return;
+    double smallest = 1e300;
+    for (std::size_t i = 0; i < set.size() && smallest > best_product * length; ++i)
+      smallest = std::min(smallest, set[i].dot(toward));
+    if (smallest > best_product * length) {
+      best_product = smallest / length;
+      best = toward / length;
+    }
+  };
+  // The point of the hull next to the origin is one of them, or lies between two, or between three.
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    consider(set[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 u = set[j] - set[i];
+      const double share = -set[i].dot(u) / u.squaredNorm();
+      if (share > 0 && share < 1) consider(set[i] + share * u);
+      for (std::size_t k = 0; k < j; ++k) {
+        const Vec3 n = cross(u, set[k] - set[i]);
+        consider(n.dot(set[i]) > 0 ? n : Vec3(-n));
+      }
+    }
+  }
+  return best;
+}
+
+TriMesh unfolded(TriMesh sheet) {
+  const Stars stars(sheet);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<NodeId> folded;
+    for (std::size_t i = 0; i < sheet.node_count(); ++i)
+      if (!stars.neighbours[NodeId(i)].empty() && is_folded(sheet, stars.triangles[NodeId(i)]))
+        folded.emplace_back(i);
+    if (folded.empty()) break;
+    // What stays folded in the middle of its neighbours needs them to move as well.
+    for (int ring = 0; ring < round / kRoundsPerRing; ++ring) {
+      const std::vector<NodeId> inner = folded;
+      for (const NodeId n : inner)
+        folded.insert(folded.end(), stars.neighbours[n].begin(), stars.neighbours[n].end());
+      std::sort(folded.begin(), folded.end());
+      folded.erase(std::unique(folded.begin(), folded.end()), folded.end());
+    }
+    std::vector<Vec3> middle(folded.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < folded.size(); ++k)
+      for (const NodeId m : stars.neighbours[folded[k]])
+        middle[k] += sheet.positions[m] / static_cast<double>(stars.neighbours[folded[k]].size());
+    for (std::size_t k = 0; k < folded.size(); ++k)
+      sheet.positions[folded[k]] = middle[k];
+  }
+  return sheet;
+}
+
+TriMesh unfolded_part(const TriMesh& sheet) {
+  // Small folds first: cut out they would be holes.
+  return embedded_part(unfolded(embedded_part(unfolded(manifold_part(sheet)))));
+}
+
+}  // namespace conchoid

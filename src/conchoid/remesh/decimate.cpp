@@ -1,0 +1,110 @@
+#include "conchoid/remesh/decimate.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <queue>
+
+namespace conchoid {
+namespace {
+
+/// Q(x) = xᵀ A x + 2 bᵀ x + c: sum of area-weighted squared distances from planes.
+struct Quadric {
+  Mat3 a = Mat3::Zero();
+  Vec3 b = Vec3::Zero();
+  double c = 0;
+
+  void add_plane(const Vec3& unit_normal, double offset, double weight) {
+    a += weight * unit_normal * unit_normal.transpose();
+    b -= weight * offset * unit_normal;
+    c += weight * offset * offset;
+  }
+  Quadric& operator+=(const Quadric& other) {
+    a += other.a;
+    b += other.b;
+    c += other.c;
+    return *this;
+  }
+  double operator()(const Vec3& x) const { return std::max(0.0, x.dot(a * x) + 2 * b.dot(x) + c); }
+  /// Its minimum, drawn slightly toward `near` so that it is unique where the planes are parallel.
+  Vec3 minimum(const Vec3& near) const {
+    const double pull = 1e-3 * a.trace();
+    if (!(pull > 0)) return near;
+    const Mat3 regular = a + pull * Mat3::Identity();
+    return near - regular.inverse() * (a * near + b);
+  }
+};
+
+struct Candidate {
+  double cost;
+  Edge edge;
+  std::uint32_t version;  ///< sum of the ends' versions when it was made
+  FeatureLines::Merge merge;
+  Vec3 at;
+  bool operator<(
+      const Candidate& other) const {  // the queue gives out the largest: smallest cost, then smallest ids
+    return cost != other.cost ? cost > other.cost : edge > other.edge;
+  }
+};
+
+class Decimation {
+ public:
+  Decimation(EditableMesh& mesh, FeatureLines& features)
+      : mesh_(mesh), features_(features), quadrics_(mesh.node_slots()), versions_(mesh.node_slots(), 0) {
+    for (std::size_t t = 0; t < mesh.triangle_slots(); ++t) {
+      const Triangle x = mesh.triangle(TriId(t));
+      const Vec3 normal2 = area_vector2(x[0], x[1], x[2]);
+      const double area2 = normal2.norm();
+      if (!(area2 > 0)) continue;
+      const Vec3 n = normal2 / area2;
+      for (NodeId corner : mesh.corners(TriId(t)))
+        quadrics_[corner].add_plane(n, n.dot(x[0]), area2 / 6);
+    }
+    for (const Edge& e : mesh.edges())
+      propose(e);
+  }
+
+  void run(std::size_t target) {
+    while (mesh_.triangle_count() > target && !queue_.empty()) {
+      const Candidate best = queue_.top();
+      queue_.pop();
+      if (versions_[best.edge.a] + versions_[best.edge.b] != best.version || !mesh_.alive(best.edge.a) ||
+          !mesh_.alive(best.edge.b))
+        continue;
+      const auto [removed, kept, may_move] = best.merge;
+      if (!mesh_.collapse(removed, kept, best.at)) continue;
+      features_.was_collapsed(removed, kept);
+      quadrics_[kept] += quadrics_[removed];
+      ++versions_[kept];
+      for (NodeId n : mesh_.neighbours(kept))
+        propose(Edge(kept, n));
+    }
+  }
+
+ private:
+  void propose(const Edge& e) {
+    const auto merge = features_.merge(e);
+    if (!merge) return;
+    Quadric sum = quadrics_[e.a];
+    sum += quadrics_[e.b];
+    const Vec3 middle = 0.5 * (mesh_.position(e.a) + mesh_.position(e.b));
+    const Vec3 at = merge->may_move ? sum.minimum(middle) : mesh_.position(merge->kept);
+    const double length2 = (mesh_.position(e.a) - mesh_.position(e.b)).squaredNorm();
+    constexpr double preference_for_short_edges = 1e-4;  // decides where the surface is flat
+    queue_.push({sum(at) + preference_for_short_edges * length2 * length2, e, versions_[e.a] + versions_[e.b],
+                 *merge, at});
+  }
+
+  EditableMesh& mesh_;
+  FeatureLines& features_;
+  IdVector<NodeId, Quadric> quadrics_;
+  IdVector<NodeId, std::uint32_t> versions_;
+  std::priority_queue<Candidate> queue_;
+};
+
+}  // namespace
+
+void decimate(EditableMesh& mesh, FeatureLines& features, std::size_t target_triangles) {
+  if (mesh.triangle_count() > target_triangles) Decimation(mesh, features).run(target_triangles);
+}
+
+}  // namespace conchoid

@@ -1,0 +1,309 @@
+#include "conchoid/remesh/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/winding_number.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double flattest_triangle = 1e-10;  // height over longest edge
+
+/// "triangle 4" …, for messages.
+template <class IdType>
+std::string numbers(const std::vector<IdType>& ids) {
+  std::string text;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == ids.size() ? " and " : ", ") + std::to_string(ids[i].value);
+  return text;
+}
+
+class Defects {
+ public:
+  explicit Defects(std::size_t most_of_a_kind) : most_of_a_kind_(most_of_a_kind) {}
+  void add(DefectKind kind, std::string what, std::string remedy, std::vector<TriId> triangles,
+           std::vector<NodeId> nodes = {}) {
+    if (++counts_[kind] <= most_of_a_kind_)
+      found_.push_back({kind, std::move(what), std::move(remedy), std::move(triangles), std::move(nodes)});
+  }
+  std::size_t most_of_a_kind() const { return most_of_a_kind_; }
+  bool none() const { return found_.empty(); }
+  std::vector<MeshDefect> take() { return std::move(found_); }
+
+ private:
+  std::size_t most_of_a_kind_;
+  std::map<DefectKind, std::size_t> counts_;
+  std::vector<MeshDefect> found_;
+};
+
+void check_corners(const TriMesh& mesh, Defects& defects) {
+  if (mesh.triangle_count() == 0)
+    defects.add(DefectKind::empty, "there are no triangles", "export a triangulated surface", {});
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto& c = mesh.corners[TriId(t)];
+    for (NodeId n : c)
+      if (!n.valid() || n.index() >= mesh.node_count())
+        defects.add(DefectKind::index_out_of_range,
+                    "triangle " + std::to_string(t) + " uses node " + std::to_string(n.value) +
+                        ", but there are " + std::to_string(mesh.node_count()) + " nodes",
+                    "export the mesh again", {TriId(t)});
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+      defects.add(DefectKind::repeated_node, "triangle " + std::to_string(t) + " uses a node twice",
+                  "remove degenerate triangles", {TriId(t)});
+  }
+  for (std::size_t n = 0; n < mesh.node_count(); ++n)
+    if (!mesh.positions[NodeId(n)].allFinite())
+      defects.add(DefectKind::not_finite,
+                  "node " + std::to_string(n) + " has a coordinate that is not finite",
+                  "repair the coordinates", {}, {NodeId(n)});
+}
+
+void check_duplicates(const TriMesh& mesh, Defects& defects) {
+  struct Key {
+    std::array<NodeId, 3> nodes;
+    TriId triangle;
+  };
+  std::vector<Key> keys;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    keys.push_back({mesh.corners[TriId(t)], TriId(t)});
+    std::sort(keys.back().nodes.begin(), keys.back().nodes.end());
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& x, const Key& y) {
+    return x.nodes != y.nodes ? x.nodes < y.nodes : x.triangle < y.triangle;
+  });
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i)
+    if (keys[i].nodes == keys[i + 1].nodes)
+      defects.add(
+          DefectKind::duplicate,
+          "triangles " + numbers<TriId>({keys[i].triangle, keys[i + 1].triangle}) + " have the same nodes",
+          "remove one of them", {keys[i].triangle, keys[i + 1].triangle});
+}
+
+/// A side of a triangle, with its nodes in the order the triangle runs through them.
+struct Side {
+  Edge edge;
+  NodeId from;
+  TriId triangle;
+};
+
+std::vector<Side> sorted_sides(const TriMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangle_count());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& c = mesh.corners[TriId(t)];
+      sides.push_back({Edge(c[k], c[(k + 1) % 3]), c[k], TriId(t)});
+    }
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) { return x.edge < y.edge; });
+  return sides;
+}
+
+void check_edges(const TriMesh& mesh, bool may_be_open, Defects& defects) {
+  const std::vector<Side> sides = sorted_sides(mesh);
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].edge == sides[i].edge)
+      ++end;
+    std::vector<TriId> triangles;
+    for (std::size_t k = i; k < end; ++k)
+      triangles.push_back(sides[k].triangle);
+    const std::vector<NodeId> nodes = {sides[i].edge.a, sides[i].edge.b};
+    const std::string edge = "edge " + std::to_string(nodes[0].value) + "–" + std::to_string(nodes[1].value);
+    if (end - i == 1 && !may_be_open)
+      defects.add(DefectKind::open_edge,
+                  edge + " has only triangle " + numbers(triangles) + ": the surface has a hole there",
+                  "close the holes", triangles, nodes);
+    if (end - i > 2)
+      defects.add(DefectKind::crowded_edge,
+                  edge + " has more than two triangles (" + numbers(triangles) + ")",
+                  "remove inner walls so that every edge has two triangles", triangles, nodes);
+    if (end - i == 2 && sides[i].from == sides[i + 1].from)
+      defects.add(DefectKind::inconsistent_edge,
+                  "triangles " + numbers(triangles) + " are oriented differently (at " + edge + ")",
+                  "flip one of them, or recompute the orientation of all faces", triangles, nodes);
+    i = end;
+  }
+}
+
+/// Triangles around each node.
+IdVector<NodeId, std::vector<TriId>> stars(const TriMesh& mesh) {
+  IdVector<NodeId, std::vector<TriId>> star(mesh.node_count());
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (NodeId n : mesh.corners[TriId(t)])
+      star[n].push_back(TriId(t));
+  return star;
+}
+
+/// Disjoint sets of small integers.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t of(std::size_t i) {
+    while (parent_[i] != i)
+      i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) {
+    i = of(i);
+    j = of(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+void check_nodes(const TriMesh& mesh, Defects& defects) {
+  const auto star = stars(mesh);
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    const auto& triangles = star[NodeId(n)];
+    if (triangles.empty()) {
+      defects.add(DefectKind::unused_node, "node " + std::to_string(n) + " belongs to no triangle",
+                  "remove unused vertices", {}, {NodeId(n)});
+      continue;
+    }
+    // Triangles of the star that share an edge at the node are joined; one fan makes one group.
+    Groups groups(triangles.size());
+    std::map<NodeId, std::size_t> across;
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (NodeId other : mesh.corners[triangles[i]]) {
+        if (other == NodeId(n)) continue;
+        const auto [found, inserted] = across.try_emplace(other, i);
+        if (!inserted) groups.join(found->second, i);
+      }
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      if (groups.of(i) != 0) {
+        defects.add(DefectKind::pinched_node,
+                    "node " + std::to_string(n) + " joins parts that touch only there (triangles " +
+                        numbers<TriId>({triangles[0], triangles[i]}) + ")",
+                    "split the node or thicken the connection", {triangles[0], triangles[i]}, {NodeId(n)});
+        break;
+      }
+  }
+}
+
+void check_shapes(const TriMesh& mesh, Defects& defects) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Triangle x = mesh.triangle(TriId(t));
+    const double longest_squared =
+        std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
+    // Twice the area is longest edge times height.
+    if (!(area_vector2(x[0], x[1], x[2]).norm() > flattest_triangle * longest_squared))
+      defects.add(DefectKind::degenerate, "triangle " + std::to_string(t) + " has no area",
+                  "remove or collapse degenerate triangles", {TriId(t)});
+  }
+}
+
+void check_intersections(const TriMesh& mesh, Defects& defects) {
+  for (const auto& [s, t] : self_intersections(mesh, defects.most_of_a_kind()))
+    defects.add(DefectKind::self_intersection, "triangles " + numbers<TriId>({s, t}) + " intersect",
+                "repair the self-intersections, or remesh", {s, t});
+}
+
+/// Connected closed parts of the surface.
+std::vector<TriMesh> components(const TriMesh& mesh, std::vector<TriId>& first_triangles) {
+  Groups groups(mesh.node_count());
+  for (const auto& c : mesh.corners) {
+    groups.join(c[0].index(), c[1].index());
+    groups.join(c[1].index(), c[2].index());
+  }
+  std::map<std::size_t, std::size_t> part_of;
+  std::vector<TriMesh> parts;
+  std::vector<std::map<NodeId, NodeId>> ids;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto [found, inserted] =
+        part_of.try_emplace(groups.of(mesh.corners[TriId(t)][0].index()), parts.size());
+    if (inserted) {
+      parts.emplace_back();
+      ids.emplace_back();
+      first_triangles.push_back(TriId(t));
+    }
+    TriMesh& part = parts[found->second];
+    std::array<NodeId, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const NodeId n = mesh.corners[TriId(t)][k];
+      const auto [id, is_new] = ids[found->second].try_emplace(n, NodeId(part.node_count()));
+      if (is_new) part.positions.push_back(mesh.positions[n]);
+      corners[k] = id->second;
+    }
+    part.corners.push_back(corners);
+  }
+  return parts;
+}
+
+/// Every component outside of all others, or inside an even number of them, must be oriented outward, a
+/// cavity inward.
+void check_orientation(const TriMesh& mesh, Defects& defects) {
+  std::vector<TriId> first;
+  const std::vector<TriMesh> parts = components(mesh, first);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double volume = enclosed_volume(parts[p]);
+    const std::string name =
+        parts.size() == 1 ? "the surface" : "the component of triangle " + std::to_string(first[p].value);
+    const Box box = bounding_box(parts[p]);
+    if (!(std::abs(volume) > 1e-12 * surface_area(parts[p]) * box.diagonal())) {
+      defects.add(DefectKind::no_volume, name + " encloses no volume", "remove it or give it thickness",
+                  {first[p]});
+      continue;
+    }
+    int depth = 0;
+    for (std::size_t q = 0; q < parts.size(); ++q)
+      if (q != p && std::abs(winding_number(parts[q], parts[p].positions.front())) > 0.5) ++depth;
+    if ((volume > 0) != (depth % 2 == 0))
+      defects.add(DefectKind::inside_out,
+                  name + (depth % 2 == 0 ? " is oriented inward" : " is a cavity but is oriented outward"),
+                  "flip its triangles", {first[p]});
+  }
+}
+
+std::vector<MeshDefect> defects_of(const TriMesh& mesh, bool is_body, std::size_t most_of_a_kind) {
+  Defects defects(most_of_a_kind);
+  check_corners(mesh, defects);
+  if (!defects.none()) return defects.take();
+  check_duplicates(mesh, defects);
+  check_edges(mesh, !is_body, defects);
+  if (defects.none()) check_nodes(mesh, defects);
+  check_shapes(mesh, defects);
+  if (!defects.none()) return defects.take();
+  check_intersections(mesh, defects);
+  if (is_body && defects.none()) check_orientation(mesh, defects);
+  return defects.take();
+}
+
+void require_none(const std::vector<MeshDefect>& defects, const std::string& name, const char* kind) {
+  if (defects.empty()) return;
+  constexpr std::size_t most_listed = 5;
+  std::string message = name + ": the mesh cannot be used as " + kind + ":";
+  for (std::size_t i = 0; i < std::min(defects.size(), most_listed); ++i)
+    message += "\n  " + defects[i].what + "; " + defects[i].remedy;
+  if (defects.size() > most_listed)
+    message += "\n  and " + std::to_string(defects.size() - most_listed) +
+               (defects.size() >= default_most_of_a_kind ? " more or further" : " more") +
+               " defects (ids count from 0)";
+  throw InputError(message);
+}
+
+}  // namespace
+
+std::vector<MeshDefect> find_defects(const TriMesh& mesh, std::size_t most_of_a_kind) {
+  return defects_of(mesh, true, most_of_a_kind);
+}
+
+std::vector<MeshDefect> find_sheet_defects(const TriMesh& sheet) {
+  return defects_of(sheet, false, default_most_of_a_kind);
+}
+
+void require_valid_body(const TriMesh& mesh, const std::string& name) {
+  require_none(find_defects(mesh), name, "the surface of a body");
+}
+
+void require_valid_sheet(const TriMesh& sheet, const std::string& name) {
+  require_none(find_sheet_defects(sheet), name, "a crack sheet");
+}
+
+}  // namespace conchoid
