@@ -25,7 +25,7 @@ std::string report_text(const RunDocument& d) {
   std::string text = fmt::format(
       "{} after {} frames, {} → {} triangles\n"
       "{:.3f} s: opening {:.3f}, fracture {:.3f}, other {:.3f}; opening per frame {:.4f}",
-      d.stop, d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
+      name(d.stop), d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
       d.fracture_seconds, d.other_seconds, d.opening_seconds_per_frame);
   for (std::size_t i = 0; i < d.fragments.size(); ++i)
     text += fmt::format("\nfragment {}: {:.6g} m³, {:.6g} kg, fracture area {:.6g} m², {}", i,
@@ -52,7 +52,7 @@ std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& 
     if (s.name == "run.frames" && s.value != RunSetting{s.name, frames}.value) return std::nullopt;
     if (s.name == "output.formats" && s.value != RunSetting{s.name, formats}.value) return std::nullopt;
   }
-  if (document.stop == "interrupted") return std::nullopt;
+  if (document.stop == StopReason::interrupted) return std::nullopt;
   return document;
 }
 
@@ -80,7 +80,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   else
     document = run_scene(scene, options).document;
   print(common.json ? run_json(*document, RunJson::report) : report_text(*document));
-  if (document->stop == "interrupted")
+  if (document->stop == StopReason::interrupted)
     throw Interrupted("stopped on request; what was computed so far has been kept");
 }
 

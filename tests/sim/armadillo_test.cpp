@@ -35,7 +35,7 @@ TEST(Armadillo, BreaksIntoPiecesThatKeepTheScan) {
   RunOptions options;
   options.progress = false;
   const RunResult result = run_scene(test::scene_from_text(example_text(scan)), options);
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested")
+  EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested)
       << result.document.stop;
   EXPECT_GE(result.cracks, 1);
   EXPECT_GE(result.fragments.size(), 2u);

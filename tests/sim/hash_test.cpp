@@ -30,7 +30,7 @@ TEST(Hash, SameForOneThreadAndForTwo) {
   set_thread_count(2);
   const RunResult two = run({});
   set_thread_count(0);
-  EXPECT_EQ(one.document.stop, "separated");
+  EXPECT_EQ(one.document.stop, StopReason::separated);
   EXPECT_EQ(one.document.hash, two.document.hash);
   EXPECT_EQ(one.document.frames, two.document.frames);
 }
@@ -61,8 +61,8 @@ TEST(Methods, SteadyPredictionEndsAndIsRepeatable) {
   options.method = Method::steady;
   const RunResult result = run(options);
   EXPECT_EQ(result.document.method, "steady");
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested" ||
-              result.document.stop == "frame-limit")
+  EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested ||
+              result.document.stop == StopReason::frame_limit)
       << result.document.stop;
   ASSERT_GE(result.document.timings.size(), 2u);
   EXPECT_EQ(result.document.timings[0].source, "bem");
@@ -88,7 +88,7 @@ TEST(Methods, ForestPredictsFromTheSecondFrameOn) {
   EXPECT_EQ(result.document.timings[1].source, "forest");
   ASSERT_EQ(result.front[0].frame, 1);
   EXPECT_EQ(result.front[0].intensity, bem.front[0].intensity);
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested")
+  EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested)
       << result.document.stop;
   EXPECT_GT(result.largest_growth, 0.2);
   EXPECT_EQ(run(options).document.hash, result.document.hash);

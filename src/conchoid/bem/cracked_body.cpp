@@ -233,7 +233,7 @@ void CrackedBody::State::eliminate_members() {
     std::copy_n(row + 3 * factored, count, diagonal.data() + i * count);
   }
   if (!P.append(coupling, diagonal))
-    throw ComputationError(
+    throw SingularSystem(
         "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
         "touches itself");
   factored = members.size();

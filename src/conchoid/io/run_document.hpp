@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "conchoid/io/outcome.hpp"
 #include "conchoid/surface/contacts.hpp"
 
 namespace conchoid {
@@ -44,7 +45,7 @@ FragmentRecord fragment_record(const Fragment& fragment);
 struct RunDocument {
   std::string scene_file, scene_text;
   std::string method;  ///< "bem", "forest", "steady", "stress", "hybrid"
-  std::string stop;    ///< "arrested", "separated", "frame-limit", …
+  StopReason stop = StopReason::frame_limit;
   int frames = 0;
   int resumed_after = 0;  ///< complete frames that were found; the times are those of the run that went on
   std::size_t initial_triangles = 0, final_triangles = 0;

@@ -30,7 +30,7 @@ std::string counted(std::size_t n, const std::string& what) {
 std::string run_caption(const RunDocument& d) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", d.total_seconds);
-  return d.stop + " after " + counted(static_cast<std::size_t>(d.frames), "frame") + ", " +
+  return std::string(name(d.stop)) + " after " + counted(static_cast<std::size_t>(d.frames), "frame") + ", " +
          counted(d.fragments.size(), "piece") + ", " + seconds;
 }
 

@@ -12,9 +12,11 @@ SifSettings sif_settings(const RunSpec& run) {
   return s;
 }
 
-BemOpening::BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
-                       const BemSettings& bem)
-    : body_(setup.surface, setup.data, m, setup.ambient, bem), m_(m), sif_(sif) {}
+BemOpening::BemOpening(const PreparedBody& body, const BodyLoad& load, const RunSpec& run)
+    : body_(body.surface, load.data, body.material.elastic(), load.ambient,
+            {run.quadrature_tolerance, run.contact}),
+      m_(body.material.elastic()),
+      sif_(sif_settings(run)) {}
 
 void BemOpening::solve(const CutComplex& cut) {
   body_.set_crack(cut);

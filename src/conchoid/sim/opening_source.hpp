@@ -6,9 +6,9 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
-#include "conchoid/sim/body_setup.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"
+#include "conchoid/sim/prepared_body.hpp"
 
 namespace conchoid {
 
@@ -35,8 +35,7 @@ class OpeningSource {
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
 class BemOpening : public OpeningSource {
  public:
-  BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
-             const BemSettings& bem);
+  BemOpening(const PreparedBody& body, const BodyLoad& load, const RunSpec& run);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
   /// The body as it was last solved.
@@ -56,9 +55,9 @@ class BemOpening : public OpeningSource {
 /// correlation node had when it was on the front. Linear in the number of front points.
 class PredictedOpening : public OpeningSource {
  public:
-  PredictedOpening(BemOpening& first, const MaterialSpec& material, const BodySetup& setup,
+  PredictedOpening(BemOpening& first, const MaterialSpec& material, const PreparedBody& body,
                    const SifSettings& sif)
-      : first_(first), sif_(sif), history_(material, setup.toughness, setup.crack_edge) {}
+      : first_(first), sif_(sif), history_(material, body.toughness, body.crack_edge) {}
   std::vector<FrontOpening> open(const CrackState& crack) override;
 
  protected:
@@ -83,11 +82,11 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
 
 /// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   const BodySetup& setup, const SifSettings& sif);
+                                                   const PreparedBody& body, const SifSettings& sif);
 /// A regression forest (learn/forest.hpp), which must outlive the source.
 class RegressionForest;
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, const BodySetup& setup,
+                                                   const MaterialSpec& material, const PreparedBody& body,
                                                    const SifSettings& sif);
 
 }  // namespace conchoid

@@ -45,8 +45,8 @@ class SteadyOpening : public PredictedOpening {
 class ForestOpening : public PredictedOpening {
  public:
   ForestOpening(BemOpening& first, const RegressionForest& forest, const MaterialSpec& material,
-                const BodySetup& setup, const SifSettings& sif)
-      : PredictedOpening(first, material, setup, sif), forest_(forest) {}
+                const PreparedBody& body, const SifSettings& sif)
+      : PredictedOpening(first, material, body, sif), forest_(forest) {}
   std::string name() const override { return "forest"; }
 
  protected:
@@ -121,14 +121,14 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
 }
 
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   const BodySetup& setup, const SifSettings& sif) {
-  return std::make_unique<SteadyOpening>(first, material, setup, sif);
+                                                   const PreparedBody& body, const SifSettings& sif) {
+  return std::make_unique<SteadyOpening>(first, material, body, sif);
 }
 
 std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, const BodySetup& setup,
+                                                   const MaterialSpec& material, const PreparedBody& body,
                                                    const SifSettings& sif) {
-  return std::make_unique<ForestOpening>(first, forest, material, setup, sif);
+  return std::make_unique<ForestOpening>(first, forest, material, body, sif);
 }
 
 }  // namespace conchoid

@@ -8,6 +8,7 @@
 
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/sample.hpp"
+#include "conchoid/sim/body.hpp"
 #include "conchoid/sim/scene.hpp"
 
 namespace conchoid {
@@ -43,12 +44,14 @@ struct RunResult {
 };
 
 /// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
-/// separated or the frame limit is reached; then cut the body. document.stop says which: "arrested",
-/// "separated", "frame-limit", "intact" (nothing cracked) "singular" (a later frame could not be solved,
-/// mostly because a piece hangs by a ligament too thin to resolve: what was computed is kept and a warning
-/// says so) or "interrupted" (Ctrl-C: what was computed is kept and written). Same scene, same bits: for
-/// every number of threads, with a folder or without, stopped and resumed or not. Throws InputError when what
-/// is to be resumed belongs to another scene, method or version.
+/// separated or the frame limit is reached; then cut the body. document.stop says which (io/outcome.hpp). Same
+/// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
+/// Throws InputError when what is to be resumed belongs to another scene, method or version. For more than one
+/// load or one step at a time: Fracture (fracture.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
+
+/// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and
+/// further cracks are the scene's.
+RunResult run_body(const Scene& scene, Body body, const RunOptions& options);
 
 }  // namespace conchoid
