@@ -86,7 +86,7 @@ std::vector<Fragment> painted_pieces() {
 
 TEST(Blender, ImportsPiecesWithCountsVolumesAndMaterials) {
   if (!is_there()) GTEST_SKIP() << "Blender is not installed";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::vector<Fragment> pieces = painted_pieces();
   ASSERT_EQ(pieces.size(), 4u);
   write_fragments_glb(folder / "f.glb", pieces, fragment_contacts(pieces));

@@ -27,7 +27,7 @@ bool is_there() {
 }
 
 void expect_valid(const std::vector<Fragment>& pieces) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_fragments_glb(folder / "f.glb", pieces, fragment_contacts(pieces));
   const auto report = nlohmann::json::parse(output_of("node '" + (validator / "validate.mjs").string() +
                                                       "' '" + (folder / "f.glb").string() + "'"));

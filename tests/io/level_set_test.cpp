@@ -12,7 +12,7 @@
 using namespace conchoid;
 
 TEST(FragmentsVdb, OpenVdbFindsEveryPieceWithItsVolume) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto pieces = broken_cube(0.1);
   for (Fragment& f : pieces)  // far from the origin: no figures are lost
     for (Vec3& x : f.mesh.positions)
@@ -42,7 +42,7 @@ TEST(FragmentsVdb, OpenVdbFindsEveryPieceWithItsVolume) {
 }
 
 TEST(FragmentsVdb, SameBytesForEveryThreadCount) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::string bytes[2];
   for (int threads = 1; threads <= 2; ++threads) {
     set_thread_count(threads);

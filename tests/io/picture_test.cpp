@@ -28,7 +28,7 @@ std::size_t warm_pixels(const Image& image, int from, int to) {
 }  // namespace
 
 TEST(Picture, PngDecodesToWhatWasRendered) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::vector<PicturePanel> panels{{exploded(broken_cube(0.1), 0.8), "two pieces", "", ""}};
   write_picture(folder / "p.png", panels, small);
   const Image expected = render_picture(panels, small);

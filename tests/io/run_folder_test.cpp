@@ -94,7 +94,7 @@ std::string refusal(const Action& action) {
 }  // namespace
 
 TEST(FrontCsv, RoundTripIsExact) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_front_csv(folder / "front.csv", two_rows());
   const std::string text = file_content(folder / "front.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')),
@@ -114,7 +114,7 @@ TEST(FrontCsv, RoundTripIsExact) {
 }
 
 TEST(FrontCsv, DamageIsNamedWithItsLine) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_front_csv(folder / "front.csv", two_rows());
   const std::string text = file_content(folder / "front.csv");
   std::ofstream(folder / "cut.csv") << text.substr(0, text.size() - 30);
@@ -125,7 +125,7 @@ TEST(FrontCsv, DamageIsNamedWithItsLine) {
 }
 
 TEST(RunFolder, WhatWasWrittenComesBack) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_whole_run(scratch / "a/b/run");
   const RunData run = read_run(scratch / "a/b/run");
   EXPECT_EQ(run.document.scene_text, document_of({}).scene_text);
@@ -165,7 +165,7 @@ TEST(RunFolder, JsonOfTheCommandLineHasTheContractsKeys) {
 }
 
 TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_whole_run(scratch / "run");
   std::ofstream(scratch / "run/notes.txt") << "mine";
   RunFolder again(scratch / "run");
@@ -184,7 +184,7 @@ TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
 }
 
 TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path run = scratch / "run";
   fs::create_directories(run);
   std::ofstream(run / "run.pvd.tmp-1-0") << "half";
@@ -198,7 +198,7 @@ TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
 }
 
 TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   EXPECT_NE(refusal([&] { read_run(scratch / "none"); }).find("not a folder"), std::string::npos);
   for (const char* name : {"run.json", "crack.ply", "front.csv", "fragments/fragment_001.ply"}) {
     const fs::path path = scratch / "run";
@@ -218,7 +218,7 @@ TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
 }
 
 TEST(RunFolder, ExaggeratedFramesShowTheOpenCrack) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   RunFolder folder(scratch / "run");
   FrameData data = frame_data();
   folder.write_frame(1, data);

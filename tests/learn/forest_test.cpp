@@ -13,8 +13,8 @@
 namespace conchoid {
 namespace {
 
-using test::ScratchFolder;
 using test::synthetic_runs;
+using test::TemporaryFolder;
 
 RegressionForest small_forest(FeatureSet set = FeatureSet::paper_4, int trees = 8, int depth = 6) {
   ForestSettings settings;
@@ -141,7 +141,7 @@ TEST(Forest, TrainingIsReportedTreeByTreeAndCanBeStopped) {
 }
 
 TEST(ForestFile, BringsTheForestBack) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const RegressionForest forest = small_forest(FeatureSet::dimensionless_context);
   forest.save(folder / "a.forest");
   const RegressionForest again = RegressionForest::load(folder / "a.forest");
@@ -159,7 +159,7 @@ TEST(ForestFile, BringsTheForestBack) {
 }
 
 TEST(ForestFile, HasTheSameBytesForEveryNumberOfThreads) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const int threads : {1, 2}) {
     set_thread_count(threads);
     small_forest().save(folder / std::to_string(threads));
@@ -181,23 +181,23 @@ void expect_refused(const std::filesystem::path& file, const std::string& about)
 }
 
 TEST(ForestFile, RefusesEveryTruncation) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   const std::string bytes = read_bytes(folder / "whole");
   for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 37) {
-    test::write_plainly(folder / "part", std::string_view(bytes).substr(0, n));
+    folder.write("part", std::string_view(bytes).substr(0, n));
     expect_refused(folder / "part", std::to_string(n) + " bytes of " + std::to_string(bytes.size()));
   }
 }
 
 TEST(ForestFile, RefusesEveryDamagedByte) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   const std::string bytes = read_bytes(folder / "whole");
   for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 29) {
     std::string damaged = bytes;
     damaged[n] = static_cast<char>(damaged[n] ^ 0x10);
-    test::write_plainly(folder / "damaged", damaged);
+    folder.write("damaged", damaged);
     expect_refused(folder / "damaged", "byte " + std::to_string(n));
   }
   write_bytes(folder / "longer", bytes + "x");
@@ -207,7 +207,7 @@ TEST(ForestFile, RefusesEveryDamagedByte) {
 }
 
 TEST(ForestFile, RefusesNewerVersionsMissingFilesAndFolders) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   std::string bytes = read_bytes(folder / "whole");
   bytes[8] = 9;

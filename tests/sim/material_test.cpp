@@ -217,7 +217,7 @@ RunResult run_mapped(const Mat3& turn, double scale) {
   for (Vec3& x : body.positions)
     x = scale * (turn * x);
   const test::TemporaryFolder folder;
-  const std::string file = folder.write("body.obj", body);
+  const std::string file = test::write_mesh_in(folder, "body.obj", body);
   const Vec3 up = turn * Vec3::UnitZ();
   const std::string axes = fmt::format("axes = [{}, {}, {}]\n", test::text(Vec3(turn.col(0))),
                                        test::text(Vec3(turn.col(1))), test::text(Vec3(turn.col(2))));

@@ -199,7 +199,7 @@ TEST(Compare, SameNumbersForEveryThreadCountAndForTwiceTheSize) {
 }
 
 TEST(Compare, RunFoldersAndJson) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   for (const auto& [name, run] : {std::pair("a", run_of(0, 5, 1e6)), std::pair("b", run_of(0.1, 6, 1e6))}) {
     RunFolder folder(scratch / name);
     folder.write_front_csv(run.front);

@@ -8,9 +8,9 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/intersect/corefine_merge.hpp"
-#include "conchoid/intersect/corefine_pairs.hpp"
 #include "conchoid/intersect/predicates.hpp"
 #include "conchoid/intersect/retriangulate.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 namespace {

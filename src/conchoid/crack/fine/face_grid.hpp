@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "conchoid/core/cells.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -32,19 +33,6 @@ class FaceGrid {
                                const std::vector<NodeId>& own) const;
 
  private:
-  struct Cell {
-    std::int64_t x, y, z;
-    bool operator==(const Cell&) const = default;
-  };
-  struct CellHash {
-    std::size_t operator()(const Cell& c) const;
-  };
-  struct Range {
-    Cell low, high;
-  };
-  Cell cell_of(const Vec3& x) const;
-  Range range(const std::vector<Vec3>& points) const;
-
   double cell_;
   std::vector<int> part_;  // per triangle
   std::unordered_map<Cell, std::vector<TriId>, CellHash> triangles_;
