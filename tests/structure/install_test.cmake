@@ -1,7 +1,7 @@
 # Installs the build into a folder of its own, builds the program in consumer/ against it and runs that.
 # Called with -DBUILD=<build folder> -DSOURCE=<this folder> -DGENERATOR=<generator>
-set(prefix ${BUILD}/tests/house/installed)
-set(consumer ${BUILD}/tests/house/consumer)
+set(prefix ${BUILD}/tests/structure/installed)
+set(consumer ${BUILD}/tests/structure/consumer)
 file(REMOVE_RECURSE ${prefix} ${consumer})
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "house/source_files.hpp"
+#include "structure/source_files.hpp"
 
 namespace conchoid {
 namespace {
