@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/run.hpp"
 #include "scenes.hpp"
@@ -25,11 +25,8 @@ RunResult run(RunOptions options) {
 }
 
 TEST(Hash, SameForOneThreadAndForTwo) {
-  set_thread_count(1);
-  const RunResult one = run({});
-  set_thread_count(2);
-  const RunResult two = run({});
-  set_thread_count(0);
+  const RunResult one = ExecutionContext(1).run([] { return run({}); });
+  const RunResult two = ExecutionContext(2).run([] { return run({}); });
   EXPECT_EQ(one.document.stop, StopReason::separated);
   EXPECT_EQ(one.document.hash, two.document.hash);
   EXPECT_EQ(one.document.frames, two.document.frames);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/study/surface_distance.hpp"
@@ -203,11 +203,8 @@ TEST(Material, ACrackStartsWhereTheBodyIsWeak) {
 
 TEST(Material, TheSameBitsForOneThreadAndForTwo) {
   const std::string text = cube_text(noise_text(0.2, 0.3, 3));
-  set_thread_count(1);
-  const RunResult one = run(text);
-  set_thread_count(2);
-  const RunResult two = run(text);
-  set_thread_count(0);
+  const RunResult one = ExecutionContext(1).run([&] { return run(text); });
+  const RunResult two = ExecutionContext(2).run([&] { return run(text); });
   EXPECT_EQ(one.document.hash, two.document.hash);
 }
 

@@ -6,6 +6,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run.hpp"
@@ -77,9 +78,9 @@ void generate_database(const DatabaseSpec& spec, const GenerateOptions& options)
   for (int run = options.shard - 1; run < spec.runs; run += options.shards)
     if (!writer.has(run)) missing.push_back(run);
   Progress progress("runs", missing.size());
-  tbb::parallel_for_each(missing.begin(), missing.end(), [&](int run) {
+  parallel_for(missing.size(), 1, [&](std::size_t i, std::size_t) {
     throw_if_interrupted();
-    const GeneratedRun generated = generate_run(spec, body, run);
+    const GeneratedRun generated = generate_run(spec, body, missing[i]);
     writer.add(generated.record, generated.samples);
     progress.advance();
   });
