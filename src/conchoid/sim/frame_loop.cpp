@@ -14,6 +14,7 @@
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/crack/law/initiation.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -45,6 +46,12 @@ std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptio
   if (options.method == Method::forest)
     return make_forest_opening(bem, *options.forest, scene.material, setup, sif);
   return nullptr;
+}
+
+std::shared_ptr<const GrowthLaw> make_law(const Scene& scene) {
+  const auto factor = scene.run.published_compression ? std::optional(scene.material.compressive_factor)
+                                                      : std::optional<double>();
+  return std::make_shared<HoopStressLaw>(scene.material.elastic(), factor);
 }
 
 struct WeakPoint {
@@ -170,6 +177,7 @@ FrameLoop::FrameLoop(const Scene& scene, const RunOptions& options)
       history_(scene.material, setup_.toughness, setup_.crack_edge),
       crack_{initial_sheet(setup_), {}, {}, {}, {}, {}},
       fine_(crack_.sheet, {.resolution = setup_.crack_edge, .spacing = kDrivingSpacing * setup_.crack_edge}),
+      law_(make_law(scene)),
       rayleigh_speed_(rayleigh_speed(
           m_, scene.material.density,
           scene.run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
@@ -219,16 +227,13 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     const FrontPoint& point = crack_.points[i];
     const FrontOpening& o = openings[i];
     const FrontFrame& f = point.frame;
-    const Vec3 K = scene_.run.published_compression
-                       ? with_compressive_factor(o.intensity, scene_.material.compressive_factor)
-                       : o.intensity;
-    const double K_eff = effective_intensity(K, m_);
+    const double K_eff = law_->drive(o.intensity);
     const bool arrested = crack_.sheet.state[point.node] == FrontState::arrested;
     const double K_c = toughness_(crack_.sheet.mesh.positions[point.node]).value;
-    const double length = arrested ? 0 : advance_length(K_eff, K_c, setup_.crack_edge);
+    const double length = arrested ? 0 : law_->length(K_eff, K_c, setup_.crack_edge);
     const bool thread = opening_from_intensity(o.intensity, setup_.crack_edge, m_).norm() >
                         kLargestOpening * setup_.crack_edge;
-    const double angle = thread ? 0 : kink_angle(K, m_);
+    const double angle = thread ? 0 : law_->direction(o.intensity);
     largest_intensity_ = std::max(largest_intensity_, K_eff);
     // Where the toughness varies every marker decides for itself.
     if (length > 0 || (!arrested && K_eff > 0 && !setup_.toughness.homogeneous()))
@@ -327,7 +332,7 @@ std::vector<FrontOpening> FrameLoop::open(FrameRecord& record, RunResult& result
       warning(result.document.warnings.back());
     }
     record.source = "carried";
-    return carried_openings(crack_, history_, m_);
+    return carried_openings(crack_, history_, *law_);
   }
 }
 
@@ -349,8 +354,8 @@ std::string FrameLoop::compute_frame(int frame, RunResult& result, RunFolder* fo
   const bool new_crack = crack_.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine_.surface().triangle_count() + crack_.sheet.mesh.triangle_count();
   if (!steps.empty())
-    advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), toughness_, setup_.crack_edge,
-                   visible_ ? &*visible_ : nullptr);
+    advance_fronts(crack_.sheet, fine_, with_drawn_nodes(crack_.sheet, steps), {law_, toughness_},
+                   setup_.crack_edge, visible_ ? &*visible_ : nullptr);
   if (!steps.empty() || new_crack) update_crack(crack_, setup_.surface, setup_.crack_edge);
   record.fracture_seconds = clock.lap();
   record.crack_triangles = crack_.trimmed.triangle_count();

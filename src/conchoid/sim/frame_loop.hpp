@@ -47,6 +47,7 @@ class FrameLoop {
   CrackState crack_;
   FineFront fine_;                    // moves the cracks, h = r̄/10 whatever the scene asks to see
   std::optional<FineFront> visible_;  // none: fine_ itself
+  std::shared_ptr<const GrowthLaw> law_;
   ToughnessField toughness_;
   double rayleigh_speed_;
   double largest_intensity_ = 0;  // K_eff of the frame
