@@ -106,12 +106,12 @@ struct Cracks {
         if (sheet.state[front.nodes[k]] == FrontState::active)
           steps.push_back({front.nodes[k], frames[k], angle, 2 * kToughness});
       if (!steps.empty())
-        advance_fronts(
-            sheet, fine, steps,
-            [](const Vec3&) {
-              return Toughness{kToughness, Vec3::Zero()};
-            },
-            kEdge);
+        advance_fronts(sheet, fine, steps,
+                       {kLaw,
+                        [](const Vec3&) {
+                          return Toughness{kToughness, Vec3::Zero()};
+                        }},
+                       kEdge);
     }
   }
 };

@@ -50,7 +50,7 @@ struct Growth {
         if (sheet.state[front.nodes[i]] == FrontState::active)
           steps.push_back({front.nodes[i], frames[i], 0, kToughness / std::sqrt(1 - share)});
     }
-    advance_fronts(sheet, fine, steps, homogeneous, kEdge, led ? &*led : nullptr);
+    advance_fronts(sheet, fine, steps, {kLaw, homogeneous}, kEdge, led ? &*led : nullptr);
   }
 };
 

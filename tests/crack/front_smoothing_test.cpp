@@ -107,7 +107,7 @@ struct Grown {
         for (std::size_t i = 0; i < front.nodes.size(); ++i)
           steps.push_back({front.nodes[i], frames_of[i], 0, 2e6});
       }
-      advance_fronts(sheet, fine, steps, toughness, kEdge);
+      advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge);
     }
     fine.finish();
   }

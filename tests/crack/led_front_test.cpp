@@ -85,7 +85,7 @@ struct Growth {
       steps.push_back(
           {sheet.fronts[0].nodes[i], frames[i], 0.3 * x.y() + 0.1, (1.8 + 0.4 * x.x()) * kToughness});
     }
-    advance_fronts(sheet, fine, steps, toughness, kEdge, led ? &*led : nullptr);
+    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, led ? &*led : nullptr);
   }
 };
 

@@ -10,6 +10,7 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -27,6 +28,12 @@ CrackSheet initial_sheet(const PreparedBody& body) {
   for (const TriMesh& crack : body.cracks)
     append_part(sheet, oriented_like(sheet, crack));
   return sheet;
+}
+
+std::shared_ptr<const GrowthLaw> hoop_stress_law(const MaterialSpec& material, const RunSpec& run) {
+  const auto factor =
+      run.published_compression ? std::optional(material.compressive_factor) : std::optional<double>();
+  return std::make_shared<HoopStressLaw>(material.elastic(), factor);
 }
 
 ToughnessField toughness_field(const PreparedBody& body) {
@@ -63,7 +70,7 @@ struct Fracture::State {
   CrackState crack;
   FineFront fine;                    // moves the cracks, h = r̄/10 whatever is to be seen
   std::optional<FineFront> visible;  // none: fine itself
-  ToughnessField toughness;
+  GrowthModel growth;
   double rayleigh_speed;
   std::vector<FractureObserver*> observers;
 
@@ -78,7 +85,7 @@ struct Fracture::State {
   bool warned = false;           // of predictions beyond the training
 
   State(std::shared_ptr<const PreparedBody> prepared, BodyLoad loads, const RunSpec& run,
-        const MakeOpeningSource& source)
+        const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
       : body(std::move(prepared)),
         load(std::move(loads)),
         settings(run),
@@ -88,7 +95,7 @@ struct Fracture::State {
         history(body->material, body->toughness, body->crack_edge),
         crack{initial_sheet(*body), {}, {}, {}, {}, {}},
         fine(crack.sheet, {.resolution = body->crack_edge, .spacing = kDrivingSpacing * body->crack_edge}),
-        toughness(toughness_field(*body)),
+        growth{law ? std::move(law) : hoop_stress_law(body->material, run), toughness_field(*body)},
         rayleigh_speed(conchoid::rayleigh_speed(
             m, body->material.density,
             run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
@@ -152,7 +159,7 @@ void Fracture::State::compute_openings(StepReport& report) {
       report.warnings.push_back(fmt::format("frame {}: {}; the front goes straight on with K as last solved",
                                             report.frame, error.what()));
     report.source = "carried";
-    openings = carried_openings(crack, history, m);
+    openings = carried_openings(crack, history, *growth.law);
   }
 }
 
@@ -166,19 +173,16 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     const FrontPoint& point = crack.points[i];
     const FrontOpening& o = openings[i];
     FrontDecision d;
-    d.intensity = settings.published_compression
-                      ? with_compressive_factor(o.intensity, body->material.compressive_factor)
-                      : o.intensity;
-    d.effective = effective_intensity(d.intensity, m);
-    d.toughness = toughness(crack.sheet.mesh.positions[point.node]).value;
+    d.drive = growth.law->drive(o.intensity);
+    d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
     const bool arrested = crack.sheet.state[point.node] == FrontState::arrested;
-    d.length = arrested ? 0 : advance_length(d.effective, d.toughness, r);
+    d.length = arrested ? 0 : growth.law->length(d.drive, d.toughness, r);
     const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
-    d.angle = ligament ? 0 : kink_angle(d.intensity, m);
-    largest_intensity = std::max(largest_intensity, d.effective);
+    d.angle = ligament ? 0 : growth.law->direction(o.intensity);
+    largest_intensity = std::max(largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
-    if (d.length > 0 || (!arrested && d.effective > 0 && !body->toughness.homogeneous()))
-      steps.push_back({point.node, point.frame, d.angle, d.effective});
+    if (d.length > 0 || (!arrested && d.drive > 0 && !body->toughness.homogeneous()))
+      steps.push_back({point.node, point.frame, d.angle, d.drive});
     if (!o.in_range && !warned) {
       warned = true;
       report.warnings.push_back(
@@ -190,9 +194,10 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     decisions.push_back(d);
   }
   for (const FrontPoint& point : ligament_points(crack))
-    steps.push_back({point.node, point.frame, 0,
-                     std::max(largest_intensity,
-                              kLigamentIntensity * toughness(crack.sheet.mesh.positions[point.node]).value)});
+    steps.push_back(
+        {point.node, point.frame, 0,
+         std::max(largest_intensity,
+                  kLigamentIntensity * growth.toughness(crack.sheet.mesh.positions[point.node]).value)});
   report.largest_intensity = largest_intensity;
   return steps;
 }
@@ -213,7 +218,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty())
-    advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), toughness, body->crack_edge,
+    advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,
                    visible ? &*visible : nullptr);
   if (!steps.empty() || new_crack) update_crack(crack, body->surface, body->crack_edge);
   report.fracture_seconds = clock.lap();
@@ -227,8 +232,8 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
 }
 
 Fracture::Fracture(std::shared_ptr<const PreparedBody> body, BodyLoad load, const RunSpec& settings,
-                   const MakeOpeningSource& source)
-    : state_(std::make_unique<State>(std::move(body), std::move(load), settings, source)) {}
+                   const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
+    : state_(std::make_unique<State>(std::move(body), std::move(load), settings, source, std::move(law))) {}
 Fracture::~Fracture() = default;
 Fracture::Fracture(Fracture&&) noexcept = default;
 Fracture& Fracture::operator=(Fracture&&) noexcept = default;

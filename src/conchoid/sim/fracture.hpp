@@ -20,11 +20,10 @@ inline constexpr double kLargestOpening = 3;
 
 /// What a point of the front does in a frame; in the order of CrackState::points.
 struct FrontDecision {
-  Vec3 intensity = Vec3::Zero();  ///< K that drives it, after the treatment of compression [Pa√m]
-  double effective = 0;           ///< K_eff [Pa√m]
-  double toughness = 0;           ///< K_c there [Pa√m]
-  double length = 0;              ///< by which it advances [m]; 0: it stays
-  double angle = 0;               ///< of its direction, from e2 towards e1 [rad]
+  double drive = 0;      ///< K_eff [Pa√m]
+  double toughness = 0;  ///< K_c there [Pa√m]
+  double length = 0;     ///< by which it advances [m]; 0: it stays
+  double angle = 0;      ///< of its direction, from e2 towards e1 [rad]
 };
 
 /// What one step did.
@@ -69,9 +68,11 @@ using MakeOpeningSource = std::function<std::unique_ptr<OpeningSource>(BemOpenin
 class Fracture {
  public:
   /// @param source  empty: every frame is solved by boundary elements
+  /// @param law     none: that of the greatest hoop stress, with closed faces or the published treatment of
+  ///                compression as the settings say
   /// Throws ComputationError when the body's system is singular.
   Fracture(std::shared_ptr<const PreparedBody> body, BodyLoad load, const RunSpec& settings,
-           const MakeOpeningSource& source = {});
+           const MakeOpeningSource& source = {}, std::shared_ptr<const GrowthLaw> law = {});
   ~Fracture();
   Fracture(Fracture&&) noexcept;
   Fracture& operator=(Fracture&&) noexcept;

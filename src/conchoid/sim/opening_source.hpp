@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
+#include "conchoid/crack/law/growth_law.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"
 #include "conchoid/sim/prepared_body.hpp"
@@ -78,7 +79,7 @@ class PredictedOpening : public OpeningSource {
 /// goes straight ahead with the K_eff that its correlation node (or itself, if it stayed) had when last
 /// solved. Points without one take the mean of the nearest on their front that have one.
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
-                                           const ElasticConstants& m);
+                                           const GrowthLaw& law);
 
 /// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
 std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,

@@ -1,4 +1,3 @@
-#include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
@@ -105,7 +104,7 @@ std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
 }
 
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
-                                           const ElasticConstants& m) {
+                                           const GrowthLaw& law) {
   std::vector<FrontOpening> out(crack.points.size());
   std::vector<char> known(out.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -114,7 +113,7 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
     if (!last && point.correlation.valid()) last = history.find(point.correlation);
     if (!last) continue;
     known[i] = 1;
-    out[i].intensity = out[i].node_intensity = effective_intensity(last->intensity, m) * Vec3::UnitX();
+    out[i].intensity = out[i].node_intensity = law.drive(last->intensity) * Vec3::UnitX();
   }
   fill_gaps(crack, known, out);
   return out;

@@ -10,7 +10,6 @@
 #include "conchoid/crack/closing/front_joint.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
-#include "conchoid/crack/law/criterion.hpp"
 
 namespace conchoid {
 
@@ -24,7 +23,7 @@ constexpr double kWedge = 120 * std::numbers::pi / 180;  ///< opening of a front
 
 /// What the nodes are about to do, before the markers say it exactly.
 std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                          const ToughnessField& toughness, double target_edge) {
+                                          const GrowthModel& model, double target_edge) {
   std::vector<bool> on_front(sheet.mesh.node_count(), false);
   for (const SheetFront& front : sheet.fronts)
     for (const NodeId node : front.nodes)
@@ -32,8 +31,8 @@ std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::ve
   std::vector<FrontMotion> expected;
   for (const FrontStep& step : steps) {
     if (!on_front[step.node.index()] || sheet.state[step.node] == FrontState::arrested) continue;
-    const double length =
-        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]).value, target_edge);
+    const double length = model.law->length(
+        step.intensity, model.toughness(sheet.mesh.positions[step.node]).value, target_edge);
     if (length > 0)
       expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
   }
@@ -108,9 +107,9 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
 }  // namespace
 
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& given,
-                             const ToughnessField& toughness, double target_edge, FineFront* led) {
+                             const GrowthModel& model, double target_edge, FineFront* led) {
   std::vector<FrontStep> steps = given;
-  auto expected = expected_motions(sheet, steps, toughness, target_edge);
+  auto expected = expected_motions(sheet, steps, model, target_edge);
   for (std::size_t left = expected.size(); left > 0; --left) {
     const auto joint = find_joint(sheet, expected, target_edge);
     if (!joint) break;
@@ -122,7 +121,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
       return step.node == joint->first.front() || step.node == joint->first.back() ||
              step.node == joint->second.front() || step.node == joint->second.back();
     });
-    expected = expected_motions(sheet, steps, toughness, target_edge);
+    expected = expected_motions(sheet, steps, model, target_edge);
   }
   Room room;
   stop_at_fronts(sheet, expected, target_edge, room);
@@ -130,8 +129,8 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   for (FrontStep& step : steps)
     if (const auto at = room.find(step.node); at != room.end()) step.most = at->second;
   std::erase_if(steps, [&](const FrontStep& step) { return step.most < kLeastRoom * target_edge; });
-  const auto motions = fine.advance(sheet, steps, toughness);
-  if (led) led->advance(sheet, steps, toughness, fine);
+  const auto motions = fine.advance(sheet, steps, model);
+  if (led) led->advance(sheet, steps, model, fine);
   for (const NodeId node : fine.stopped_riders())
     if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;

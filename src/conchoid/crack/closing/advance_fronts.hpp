@@ -9,6 +9,6 @@ namespace conchoid {
 /// of it at most, and where the sheets are not oriented alike both stop there for good.
 /// @param led  another fine front of the same sheet, led by `fine`; may be null
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& steps,
-                             const ToughnessField& toughness, double target_edge, FineFront* led = nullptr);
+                             const GrowthModel& model, double target_edge, FineFront* led = nullptr);
 
 }  // namespace conchoid

@@ -138,17 +138,17 @@ void FineFront::append_parts(const CrackSheet& sheet) {
 }
 
 std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                            const ToughnessField& toughness) {
-  return advance(sheet, steps, toughness, nullptr);
+                                            const GrowthModel& model) {
+  return advance(sheet, steps, model, nullptr);
 }
 
 void FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                        const ToughnessField& toughness, const FineFront& leader) {
-  advance(sheet, steps, toughness, &leader.tracks_);
+                        const GrowthModel& model, const FineFront& leader) {
+  advance(sheet, steps, model, &leader.tracks_);
 }
 
 std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
-                                            const ToughnessField& toughness,
+                                            const GrowthModel& model,
                                             const std::vector<FrontTrack>* leaders) {
   append_parts(sheet);
   frame_ = sheet.frame + 1;
@@ -174,14 +174,14 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
       inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
                        sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
                            FrontState::outside);
-    sweep(curve, steps, inside, toughness, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
+    sweep(curve, steps, inside, model, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
     if (!leaders) append_motions(sheet, curve, steps, motions);
   }
   return motions;
 }
 
 void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
-                      const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader) {
+                      const GrowthModel& model, FrontTrack& track, const FrontTrack* leader) {
   const auto smooth_front = [&](double time) {
     if (!leader || leader->empty()) return smoothed_positions(curve, settings_.resolution);
     std::vector<Vec3> on_track;
@@ -201,14 +201,14 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     std::vector<Vec3> from;
     for (const Marker& marker : curve.markers) {
       from.push_back(marker.position);
-      part.here.push_back(toughness(marker.position));
+      part.here.push_back(model.toughness(marker.position));
       varied_ = varied_ || !part.here.back().gradient.isZero(0);
     }
     if (varied_) {
       part.smooth = smooth_front(begin);
       track.add(begin, curve, part.smooth, steps.size());
     }
-    if (!move_markers(curve, steps, toughness, part)) continue;
+    if (!move_markers(curve, steps, model, part)) continue;
     stop_at_faces(curve, from, inside);
     leave_row(curve, kRowAfter * settings_.spacing);
   }

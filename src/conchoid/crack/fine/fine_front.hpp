@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,22 +20,15 @@ struct FineFrontSettings {
   bool smooth_angles = true;  ///< see FrontSteps::smooth_angles
 };
 
-/// Toughness at a point.
-struct Toughness {
-  double value = 0;              ///< K_c [Pa·√m]
-  Vec3 gradient = Vec3::Zero();  ///< of K_c [Pa/√m]
-};
-using ToughnessField = std::function<Toughness(const Vec3&)>;
-
 /// The visible crack surface: along every coarse front a polyline of markers, about h apart (kept within 0.5
 /// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker; where the
 /// toughness varies it lies on the markers' curve smoothed over r̄, as the boundary elements see nothing
 /// finer. A frame of r̄/c_R is made in sub-steps; in each a marker moves by
-///     advance_length(K_eff, K_c(x), r̄) / sub-steps,
+///     GrowthLaw::length(K_eff, K_c(x), r̄) / sub-steps,
 /// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
 /// frame, in a direction that turns from its direction in the frame before to the interpolated θ. A marker
 /// that has not moved before kinks at once. Where the toughness varies, each sub-step turns from there
-/// towards its fall (toughness_turn), but not beyond the bottom of a valley; and a marker off the front
+/// towards its fall (GrowthLaw::deflection), but not beyond the bottom of a valley; and a marker off the front
 /// smoothed over r̄ feels what the front's shape does to K, to first order for a wave of wavelength r̄ (Rice
 /// 1985): K_eff (1 + π · lag/r̄), and a fall of height/r̄ back to it. Else tough spots would be
 /// left behind for good, and neighbours part without end. A marker leaves a row of triangles behind whenever
@@ -48,7 +40,7 @@ using ToughnessField = std::function<Toughness(const Vec3&)>;
 /// together. Markers between coarse nodes that both lie outside of the body are not looked after. Coarse
 /// nodes that ride on stopped markers are arrested.
 ///
-/// One frame:  motions = fine.advance(sheet, steps, toughness);
+/// One frame:  motions = fine.advance(sheet, steps, model);
 ///             result = advance(sheet, motions, r̄, {smoothing 0, between fine.between});  fine.adopt(sheet,
 ///             result);
 /// or advance_fronts(), which does just that.
@@ -67,10 +59,10 @@ class FineFront {
   /// Moves the markers by one frame and sweeps the fine sheet. Coarse nodes without a step stay, and so do
   /// markers between two of them. @return the displacements of the coarse nodes
   std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                   const ToughnessField& toughness);
+                                   const GrowthModel& model);
   /// The same for a front that is led by another, which has advanced already. Where only this one met a face
   /// of its own crack it tries again in the next frame.
-  void advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps, const ToughnessField& toughness,
+  void advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps, const GrowthModel& model,
                const FineFront& leader);
 
   /// Breaks the ligament between two stretches of fronts, as join_fronts() has just done in the sheet, and
@@ -119,20 +111,20 @@ class FineFront {
   };
 
   std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                   const ToughnessField& toughness, const std::vector<FrontTrack>* leaders);
+                                   const GrowthModel& model, const std::vector<FrontTrack>* leaders);
   /// One frame of one front. @param inside  per coarse edge  @param leader  may be null
   void sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
-             const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader);
+             const GrowthModel& model, FrontTrack& track, const FrontTrack* leader);
   /// The nodes between two stretches that have been joined, at their ends (see FrontJoint).
   struct JointEnds {
     std::vector<NodeId> at_first, at_second;  ///< from first.front() on, from second.front() on
   };
   JointEnds fill_ligament(const std::vector<NodeId>& first, const std::vector<NodeId>& second, int part);
-  bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
+  bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const GrowthModel& model,
                     const SubStep& part);
   std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps,
                                 const std::vector<Vec3>& smooth) const;
-  double weaker_side(const Path& path, const Toughness& here, const ToughnessField& toughness) const;
+  double weaker_side(const Path& path, const Toughness& here, const GrowthModel& model) const;
   /// Where a coarse node lies that rides on marker i.
   Vec3 coarse_position(const MarkerCurve& curve, std::size_t i) const;
   /// Stops markers whose path since `from` (positions, one per marker) leads into a face.

@@ -4,6 +4,7 @@
 
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/fine/front_smoothing.hpp"
+#include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/law/criterion.hpp"
 
 // One sub-step of the markers.
@@ -17,7 +18,7 @@ constexpr double kHeight = 1;                                 ///< fall per r̄ 
 
 }  // namespace
 
-bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const ToughnessField& toughness,
+bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const GrowthModel& model,
                              const SubStep& part) {
   const std::vector<Toughness>& here = part.here;
   const std::vector<Relief> relief =
@@ -28,7 +29,8 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
   for (std::size_t i = 0; i < curve.size(); ++i) {
     Marker& marker = curve.markers[i];
     if (marker.arrested) continue;
-    length[i] = steps.length(marker.parameter, here[i].value / relief[i].intensity, settings_.resolution) /
+    length[i] = steps.length(marker.parameter, *model.law, here[i].value / relief[i].intensity,
+                             settings_.resolution) /
                 part.per_frame;
     if (!(length[i] > 0)) continue;
     frame[i] = steps.frame(marker.parameter);
@@ -42,7 +44,7 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
     if (varied_)
       turn[i] = weaker_side({marker.position, length[i], frame[i], angle[i],
                              relief[i].intensity * steps.intensity(marker.parameter), relief[i].height},
-                            here[i], toughness);
+                            here[i], model);
     moves[i] = marker.moved = true;
   }
   if (varied_) smooth_along(curve, moves, turn);
@@ -68,18 +70,17 @@ std::vector<FineFront::Relief> FineFront::relief_of(const MarkerCurve& curve, co
 
 /// Where the fall has turned round at the end of the sub-step there is a valley in between: the turn is
 /// reduced so as to end there (secant), or the path would zigzag across it.
-double FineFront::weaker_side(const Path& path, const Toughness& here,
-                              const ToughnessField& toughness) const {
+double FineFront::weaker_side(const Path& path, const Toughness& here, const GrowthModel& model) const {
   const Vec3 across = direction_at(-path.frame.e2, path.frame.e1, path.angle);  // towards growing angles
   const auto fall = [&](const Toughness& at, double height) {
     return -kTurnLength * settings_.resolution / at.value * at.gradient.dot(across) - kHeight * height;
   };
   const double begin = fall(here, path.height);
-  const double full = toughness_turn(begin, path.intensity, here.value);
+  const double full = model.law->deflection(begin, path.intensity, here.value);
   if (full == 0) return 0;
   const Vec3 way = path.length * direction_at(path.frame.e1, path.frame.e2, path.angle + full);
-  const double end =
-      fall(toughness(path.position + way), path.height + path.length * std::sin(full) / settings_.resolution);
+  const double end = fall(model.toughness(path.position + way),
+                          path.height + path.length * std::sin(full) / settings_.resolution);
   return begin * end < 0 ? full * begin / (begin - end) : full;
 }
 

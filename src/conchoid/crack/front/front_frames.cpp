@@ -161,6 +161,10 @@ std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId,
   return frames;
 }
 
+Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle) {
+  return std::cos(angle) * e2 + std::sin(angle) * e1;
+}
+
 FrontFrame interpolate(const FrontFrame& a, const FrontFrame& b, double s) {
   FrontFrame frame;
   if (orthonormalize((1 - s) * a.e1 + s * b.e1, (1 - s) * a.e3 + s * b.e3, frame)) return frame;

@@ -50,10 +50,6 @@ Vec3 with_compressive_factor(const Vec3& K, double factor) {
   return compression > factor * tension ? Vec3(reversed / factor) : K;
 }
 
-Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle) {
-  return std::cos(angle) * e2 + std::sin(angle) * e1;
-}
-
 double rayleigh_speed(const ElasticConstants& m, double density, RayleighFormula formula) {
   const double shear_speed = std::sqrt(m.shear_modulus() / density);
   if (formula == RayleighFormula::published) return 0.9 * shear_speed;

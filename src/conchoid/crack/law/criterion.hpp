@@ -30,9 +30,6 @@ double hoop_intensity(const Vec3& K, double angle);
 /// the place of K.
 Vec3 with_compressive_factor(const Vec3& K, double factor);
 
-/// cosθ e2 + sinθ e1: unit direction at angle θ.
-Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle);
-
 /// exact: root of the characteristic equation (2−ξ²)² = 4 √(1−ξ²) √(1−η ξ²), ξ = c_R/c_S, η = (1−2ν)/(2−2ν).
 /// published: 0.9 √(μ/ρ).
 enum class RayleighFormula { exact, published };
