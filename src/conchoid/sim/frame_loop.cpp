@@ -16,6 +16,7 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/initiation.hpp"
 #include "conchoid/intersect/unfold.hpp"
+#include "conchoid/sim/methods.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -40,11 +41,8 @@ CrackSheet initial_sheet(const BodySetup& setup) {
 
 std::unique_ptr<OpeningSource> make_predictor(const Scene& scene, const RunOptions& options, BemOpening& bem,
                                               const BodySetup& setup) {
-  const SifSettings sif = sif_settings(scene.run);
-  if (options.method == Method::steady) return make_steady_opening(bem, scene.material, setup, sif);
-  if (options.method == Method::forest)
-    return make_forest_opening(bem, *options.forest, scene.material, setup, sif);
-  return nullptr;
+  return checked_method(options.method, options.regressor)
+      .make({bem, scene.material, setup, sif_settings(scene.run), options.regressor});
 }
 
 struct WeakPoint {
@@ -253,10 +251,9 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     if (!o.in_range && !warned_) {
       warned_ = true;
       result.document.warnings.push_back(
-          fmt::format("frame {}: the forest is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
-                      "K_III = {:.3g} Pa√m); train it on "
-                      "a database that covers such loads",
-                      frame, o.intensity[0], o.intensity[1], o.intensity[2]));
+          fmt::format("frame {}: the {} is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
+                      "K_III = {:.3g} Pa√m); train it on a database that covers such loads",
+                      frame, options_.method, o.intensity[0], o.intensity[1], o.intensity[2]));
       warning(result.document.warnings.back());
     }
   }

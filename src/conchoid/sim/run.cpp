@@ -12,6 +12,7 @@
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/frame_loop.hpp"
+#include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/run_identity.hpp"
 #include "conchoid/surface/open_slits.hpp"
 
@@ -137,7 +138,7 @@ std::string result_hash(const RunResult& result) {
 void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& options, RunDocument& doc) {
   doc.scene_file = scene.file;
   doc.scene_text = scene.text;
-  doc.method = name(options.method);
+  doc.method = options.method;
   const BodySetup& setup = loop.setup();
   doc.settings = {
       {"resolution.crack", setup.crack_edge},
@@ -189,19 +190,8 @@ void write_results(const RunResult& result, const FragmentFormats& formats, doub
 
 }  // namespace
 
-Method method_from_name(const std::string& text) {
-  for (Method m : {Method::bem, Method::forest, Method::steady})
-    if (name(m) == text) return m;
-  throw InputError(fmt::format("method '{}' is not known; use bem, forest or steady", text));
-}
-
-std::string name(Method method) {
-  return method == Method::bem ? "bem" : method == Method::forest ? "forest" : "steady";
-}
-
 RunResult run_scene(const Scene& scene, const RunOptions& options) {
-  if (options.method == Method::forest && !options.forest)
-    throw InputError("method 'forest' needs a trained forest: --database FOREST");
+  checked_method(options.method, options.regressor);
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();

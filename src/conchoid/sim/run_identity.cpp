@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor.hpp"
 
 namespace conchoid {
 namespace {
@@ -37,8 +37,8 @@ std::string run_identity(const Scene& scene, const BodySetup& setup, const RunOp
   for (const char* text : {CONCHOID_VERSION, __VERSION__})
     hash.add(text);
   hash.add(scene.text);
-  hash.add(name(options.method));
-  if (options.forest) hash.add(options.forest->provenance().samples_hash);
+  hash.add(options.method);
+  if (options.regressor) hash.add(options.regressor->content_hash());
   add_mesh(hash, setup.surface);
   add_mesh(hash, setup.detailed);
   for (const TriMesh& crack : setup.cracks)
