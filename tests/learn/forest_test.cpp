@@ -76,6 +76,7 @@ TEST(Forest, HoldsForAnotherSizeAndMaterialIfDimensionless) {
     s.toughness *= 1000 * 8;
     s.youngs_modulus *= 1000;
     s.traction *= 1000;
+    s.front_curvature /= 64;
     for (double* length :
          {&s.resolution, &s.distance_before, &s.distance_after, &s.travelled, &s.surface_distance})
       *length *= 64;

@@ -55,7 +55,7 @@ TEST(Hash, AnotherLoadGivesAnother) {
 
 TEST(Methods, SteadyPredictionEndsAndIsRepeatable) {
   RunOptions options;
-  options.method = Method::steady;
+  options.method = "steady";
   const RunResult result = run(options);
   EXPECT_EQ(result.document.method, "steady");
   EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested ||
@@ -77,8 +77,8 @@ TEST(Methods, ForestPredictsFromTheSecondFrameOn) {
       bem.samples, {.trees = 20, .depth = 8, .features = FeatureSet::dimensionless, .seed = 1, .bins = 64},
       {});
   RunOptions options;
-  options.method = Method::forest;
-  options.forest = &forest;
+  options.method = "forest";
+  options.regressor = &forest;
   const RunResult result = run(options);
   ASSERT_GE(result.document.timings.size(), 2u);
   EXPECT_EQ(result.document.timings[0].source, "bem");
@@ -93,7 +93,7 @@ TEST(Methods, ForestPredictsFromTheSecondFrameOn) {
 
 TEST(Methods, ForestIsAskedFor) {
   RunOptions options;
-  options.method = Method::forest;
+  options.method = "forest";
   EXPECT_THROW(run(options), InputError);
 }
 

@@ -16,13 +16,6 @@ namespace fs = std::filesystem;
 constexpr double ghost_opacity = 0.22;
 constexpr std::size_t most_rows = 20000;  // of front.csv that colours are taken from
 
-std::string method_title(const std::string& method) {
-  if (method == "bem") return "solved by boundary elements";
-  if (method == "forest") return "predicted by a forest";
-  if (method == "steady") return "predicted, K stays as it is";
-  return method;
-}
-
 std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
@@ -233,7 +226,7 @@ RunView run_view_from_name(const std::string& name) {
 
 PicturePanel run_panel(const RunData& run, const fs::path& folder, const RunPictureSettings& settings) {
   PicturePanel panel;
-  panel.title = method_title(run.document.method);
+  panel.title = run.document.method;
   panel.caption = run_caption(run.document);
   switch (settings.view) {
     case RunView::pieces:

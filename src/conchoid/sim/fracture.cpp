@@ -186,10 +186,10 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     if (!o.in_range && !warned) {
       warned = true;
       report.warnings.push_back(
-          fmt::format("frame {}: the forest is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
+          fmt::format("frame {}: the {} is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
                       "K_III = {:.3g} Pa√m); train it on "
                       "a database that covers such loads",
-                      report.frame, o.intensity[0], o.intensity[1], o.intensity[2]));
+                      report.frame, report.source, o.intensity[0], o.intensity[1], o.intensity[2]));
     }
     decisions.push_back(d);
   }

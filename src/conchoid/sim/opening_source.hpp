@@ -7,6 +7,7 @@
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
 #include "conchoid/crack/law/growth_law.hpp"
+#include "conchoid/learn/opening_predictor.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"
 #include "conchoid/sim/prepared_body.hpp"
@@ -22,6 +23,7 @@ struct FrontOpening {
   Vec3 intensity = Vec3::Zero();       ///< K that moves the front [Pa√m]
   Vec3 node_intensity = Vec3::Zero();  ///< K from this opening alone (S3): what features are made of [Pa√m]
   bool in_range = true;                ///< false: a predictor was asked beyond its training
+  bool known = true;                   ///< false: no K of its own
 };
 
 /// The socket: where the crack opening comes from.
@@ -56,21 +58,21 @@ class BemOpening : public OpeningSource {
 /// correlation node had when it was on the front. Linear in the number of front points.
 class PredictedOpening : public OpeningSource {
  public:
-  PredictedOpening(BemOpening& first, const MaterialSpec& material, const PreparedBody& body,
-                   const SifSettings& sif)
-      : first_(first), sif_(sif), history_(material, body.toughness, body.crack_edge) {}
+  /// @param predictor  a regressor or a closed form; must outlive the source, as `first` must
+  PredictedOpening(BemOpening& first, const OpeningPredictor& predictor, const MaterialSpec& material,
+                   const PreparedBody& body, const SifSettings& sif)
+      : first_(first),
+        predictor_(predictor),
+        sif_(sif),
+        history_(material, body.toughness, body.crack_edge) {}
+  std::string name() const override { return std::string(predictor_.name()); }
   std::vector<FrontOpening> open(const CrackState& crack) override;
 
- protected:
-  /// Openings [m] in the front frames of the frame before.
-  struct Guess {
-    Vec3 opening;
-    bool in_range;
-  };
-  virtual std::vector<Guess> predict(const SampleSet& samples) = 0;
-
  private:
+  std::vector<FrontOpening> predict(const CrackState& crack) const;
+
   BemOpening& first_;
+  const OpeningPredictor& predictor_;
   SifSettings sif_;
   FrontHistory history_;
 };
@@ -80,14 +82,5 @@ class PredictedOpening : public OpeningSource {
 /// solved. Points without one take the mean of the nearest on their front that have one.
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
                                            const GrowthLaw& law);
-
-/// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
-std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   const PreparedBody& body, const SifSettings& sif);
-/// A regression forest (learn/forest.hpp), which must outlive the source.
-class RegressionForest;
-std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, const PreparedBody& body,
-                                                   const SifSettings& sif);
 
 }  // namespace conchoid

@@ -9,6 +9,7 @@
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/sim/checkpoint.hpp"
+#include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/pieces.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run_identity.hpp"
@@ -18,17 +19,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-MakeOpeningSource source_of(const Scene& scene, const RunOptions& options, const PreparedBody& body) {
-  const SifSettings sif = sif_settings(scene.run);
-  if (options.method == Method::steady)
-    return [&body, sif](BemOpening& bem) { return make_steady_opening(bem, body.material, body, sif); };
-  if (options.method == Method::forest)
-    return [&body, sif, forest = options.forest](BemOpening& bem) {
-      return make_forest_opening(bem, *forest, body.material, body, sif);
-    };
-  return {};
 }
 
 std::string result_hash(const RunResult& result) {
@@ -50,7 +40,7 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
   RunDocument doc;
   doc.scene_file = scene.file;
   doc.scene_text = scene.text;
-  doc.method = name(options.method);
+  doc.method = options.method;
   doc.settings = {
       {"resolution.crack", body.crack_edge},
       {"resolution.surface", body.surface_edge},
@@ -151,32 +141,21 @@ void cut(const Fracture& fracture, const Scene& scene, const RunOptions& options
 
 }  // namespace
 
-Method method_from_name(const std::string& text) {
-  for (Method m : {Method::bem, Method::forest, Method::steady})
-    if (name(m) == text) return m;
-  throw InputError(fmt::format("method '{}' is not known; use bem, forest or steady", text));
-}
-
-std::string name(Method method) {
-  return method == Method::bem ? "bem" : method == Method::forest ? "forest" : "steady";
-}
-
 RunResult run_scene(const Scene& scene, const RunOptions& options) {
-  if (options.method == Method::forest && !options.forest)
-    throw InputError("method 'forest' needs a trained forest: --database FOREST");
-  formats_from_names(options.formats.value_or(scene.output.formats),
-                     options.formats ? "--format" : scene.output.where);
   return run_body(scene, scene_body(scene), options);
 }
 
 RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options) {
+  const OpeningMethod& method = checked_method(options.method, options.regressor);
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();
   const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
   RunResult result;
   RunDocument& doc = result.document = describe(scene, *body, options);
-  Fracture fracture(body, load_of(scene, *body), scene.run, source_of(scene, options, *body));
+  Fracture fracture(body, load_of(scene, *body), scene.run, [&](BemOpening& bem) {
+    return method.make({bem, body->material, *body, sif_settings(scene.run), options.regressor});
+  });
   Places places = open_places(fracture, scene, options);
   std::optional<FrameWriter> frames;
   if (places.checkpoint) {

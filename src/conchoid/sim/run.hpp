@@ -13,17 +13,11 @@
 
 namespace conchoid {
 
-class RegressionForest;
-
-/// Where the crack opening comes from.
-enum class Method { bem, forest, steady };
-/// "bem", "forest", "steady". Throws InputError for another name.
-Method method_from_name(const std::string& name);
-std::string name(Method method);
+class Regressor;
 
 struct RunOptions {
-  Method method = Method::bem;
-  const RegressionForest* forest = nullptr;         ///< for Method::forest
+  std::string method = "bem";                       ///< where the opening comes from: sim/methods.hpp
+  const Regressor* regressor = nullptr;             ///< for the methods that need one
   std::optional<int> frames;                        ///< in place of the scene's
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
@@ -46,8 +40,8 @@ struct RunResult {
 /// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
 /// separated or the frame limit is reached; then cut the body. document.stop says which (io/outcome.hpp). Same
 /// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
-/// Throws InputError when what is to be resumed belongs to another scene, method or version. For more than one
-/// load or one step at a time: Fracture (fracture.hpp), which this is a thin driver of.
+/// Throws InputError for an unknown method or a regressor that does not go with it, and when what is to be
+/// resumed belongs to another scene, method, regressor or version. For more than one load or one step at a time: Fracture (fracture.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 /// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor.hpp"
 
 namespace conchoid {
 namespace {
@@ -103,8 +103,8 @@ std::string run_identity(const Scene& scene, const PreparedBody& body, const Bod
   for (const char* text : {CONCHOID_VERSION, __VERSION__})
     hash.add(text);
   hash.add(scene.text);
-  hash.add(name(options.method));
-  if (options.forest) hash.add(options.forest->provenance().samples_hash);
+  hash.add(options.method);
+  if (options.regressor) hash.add(options.regressor->content_hash());
   add_mesh(hash, body.surface);
   add_mesh(hash, body.detailed);
   for (const TriMesh& crack : body.cracks)
