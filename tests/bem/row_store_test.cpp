@@ -40,7 +40,7 @@ CrackedBody pulled_cube() {
     if (z > 0.9) data.traction[t] = {0, 0, 1e6};
     if (z < -0.9) data.kind[t] = BoundaryKind::displacement;
   }
-  return CrackedBody(cube, data, kGlassy);
+  return make_cracked_body(cube, data, kGlassy);
 }
 
 /// Openings of a disc, and of the disc twice as large after it, in one body.

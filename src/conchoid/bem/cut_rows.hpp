@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "conchoid/bem/body_blocks.hpp"
+#include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/cut_space.hpp"
 
 namespace conchoid {
@@ -18,16 +18,15 @@ struct CutRows {
 
 /// What the rows are made against.
 struct CutProblem {
-  const TriMesh& surface;
-  const BoundaryData& data;
-  const ElasticConstants& m;
-  const AmbientField& ambient;
-  const BodyBlocks& body;
-  const PairIntegrator& integrator;
+  const BodyOperator& body;
+  const LoadCase& load;
 };
 
 /// Rows of the functions listed in `wanted` (indices into space.functions), in that order.
 std::vector<CutRows> assemble_cut_rows(const CutProblem& problem, const CutSpace& space,
                                        const std::vector<std::size_t>& wanted);
+
+/// Their `load` alone, for another load case than the one their rows were made for.
+std::vector<Vec3> assemble_cut_loads(const CutProblem& problem, const CutSpace& space);
 
 }  // namespace conchoid

@@ -55,8 +55,8 @@ class Star {
 
 class CutSpaceBuilder {
  public:
-  CutSpaceBuilder(const CutComplex& cut, const TriMesh& surface, const BoundaryData& data)
-      : cut_(cut), surface_(surface), data_(data), surface_star_(cut.surface), crack_star_(cut.sheet) {}
+  CutSpaceBuilder(const CutComplex& cut, const TriMesh& surface, const std::vector<BoundaryKind>& kinds)
+      : cut_(cut), surface_(surface), kinds_(kinds), surface_star_(cut.surface), crack_star_(cut.sheet) {}
 
   CutSpace build() {
     add_panels();
@@ -111,7 +111,7 @@ class CutSpaceBuilder {
         on_front_[a.index()] = on_front_[b.index()] = 1;
       }
     for (std::size_t t = 0; t < cut_.surface.size(); ++t)
-      if (data_.kind[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
+      if (kinds_[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
         for (NodeId node : cut_.surface[TriId(t)])
           fixed_[node.index()] = 1;
   }
@@ -207,7 +207,7 @@ class CutSpaceBuilder {
 
   const CutComplex& cut_;
   const TriMesh& surface_;
-  const BoundaryData& data_;
+  const std::vector<BoundaryKind>& kinds_;
   const Star surface_star_, crack_star_;
   std::vector<char> on_front_, fixed_;
   std::vector<std::vector<NodeId>> mouth_edges_;
@@ -216,8 +216,9 @@ class CutSpaceBuilder {
 
 }  // namespace
 
-CutSpace make_cut_space(const CutComplex& cut, const TriMesh& surface, const BoundaryData& data) {
-  return CutSpaceBuilder(cut, surface, data).build();
+CutSpace make_cut_space(const CutComplex& cut, const TriMesh& surface,
+                        const std::vector<BoundaryKind>& kinds) {
+  return CutSpaceBuilder(cut, surface, kinds).build();
 }
 
 }  // namespace conchoid

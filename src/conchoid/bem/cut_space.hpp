@@ -45,6 +45,7 @@ struct CutSpace {
 
 /// Nodes on the front (Δu = 0), on the displacement boundary, and where more than two mouth edges meet carry
 /// no opening.
-CutSpace make_cut_space(const CutComplex& cut, const TriMesh& surface, const BoundaryData& data);
+CutSpace make_cut_space(const CutComplex& cut, const TriMesh& surface,
+                        const std::vector<BoundaryKind>& kinds);
 
 }  // namespace conchoid

@@ -28,6 +28,7 @@ AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const Ela
 /// Orthonormal rigid motions, six for every connected part of the surface that touches no displacement
 /// boundary, each 3·nodes long and zero off its part. They are the null space of the hypersingular operator:
 /// a cavity's surface has its own six, which move nothing but itself.
-std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const BoundaryData& data);
+std::vector<std::vector<double>> floating_motions(const TriMesh& surface,
+                                                  const std::vector<BoundaryKind>& kinds);
 
 }  // namespace conchoid

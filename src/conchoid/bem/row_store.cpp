@@ -19,7 +19,7 @@ std::string name_of(const CutSpace& space, const std::vector<std::size_t>& wante
 bool fits(const std::vector<CutRows>& rows, const CutProblem& problem, const CutSpace& space,
           std::size_t wanted) {
   if (rows.size() != wanted) return false;
-  const Unknowns& unknowns = problem.body.unknowns;
+  const Unknowns& unknowns = problem.body.blocks().unknowns;
   for (const CutRows& r : rows)
     if (r.D_body.rows != 3 || r.D_body.columns != 3 * unknowns.displacement_count || r.D_cut.rows != 3 ||
         r.D_cut.columns != 3 * space.functions.size() || r.K.rows != 3 * unknowns.traction_count ||

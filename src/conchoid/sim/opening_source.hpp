@@ -37,8 +37,12 @@ class BemOpening : public OpeningSource {
  public:
   BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
              const BemSettings& bem);
+  /// Of a body that others may share.
+  BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
+  /// Replaces the load; counts from the next solve() or open() on.
+  void set_load(LoadCase load) { body_.set_load(std::move(load)); }
   /// The body as it was last solved.
   const CrackedBody& body() const { return body_; }
   /// Where the rows of the cracks are kept (bem/row_store.hpp); must outlive the source.
