@@ -16,9 +16,9 @@
 namespace conchoid {
 namespace {
 
-// A cut function that is in the system.
+// A enrichment function that is in the system.
 struct Member {
-  CutFunctionKind kind;
+  EnrichmentKind kind;
   NodeId node;
   std::vector<double> key;
   DenseMatrix coupling;      // 3 × body unknowns: D_au + K_aᵀ V⁻¹ K
@@ -40,7 +40,7 @@ struct CrackedBody::State {
   std::vector<Member> members;
   DenseMatrix among;         // 3·members square: D_aa + K_aᵀ V⁻¹ K_a
   std::size_t factored = 0;  // members eliminated in P
-  CutSpace space;
+  EnrichedSpace space;
   std::vector<std::size_t> member_of;  // per function of space
   std::size_t cut_nodes = 0;
   std::vector<double> solution;
@@ -50,7 +50,7 @@ struct CrackedBody::State {
   State(std::shared_ptr<const BodyOperator> b, LoadCase l)
       : body(std::move(b)),
         P(body->schur_factor()),
-        space(make_cut_space(whole_surface(surface()), surface(), body->kinds())) {
+        space(make_enriched_space(whole_surface(surface()), surface(), body->kinds())) {
     set_load(std::move(l));
   }
 
@@ -91,7 +91,7 @@ void CrackedBody::State::set_load(LoadCase wanted) {
     for (std::size_t i = 0; i < body_load.size(); ++i)
       body_load[i] -= K(q, i) * VinvF[q];
   if (members.empty()) return;
-  const std::vector<Vec3> loads = assemble_cut_loads({*body, load}, space);
+  const std::vector<Vec3> loads = assemble_enrichment_loads({*body, load}, space);
   for (std::size_t f = 0; f < loads.size(); ++f) {
     Member& member = members[member_of[f]];
     member.load = loads[f];
@@ -138,9 +138,9 @@ void CrackedBody::State::replace_members() {
         for (int q = 0; q < 3; ++q)
           now_among(3 * i + p, 3 * j + q) = among(3 * old_position[i] + p, 3 * old_position[j] + q);
   }
-  std::vector<CutRows> rows = stored_cut_rows({*body, load}, space, wanted, store);
+  std::vector<EnrichmentRows> rows = stored_rows({*body, load}, space, wanted, store);
   for (std::size_t w = 0; w < wanted.size(); ++w) {
-    const CutFunction& f = space.functions[wanted[w]];
+    const EnrichmentFunction& f = space.functions[wanted[w]];
     Member member{f.kind, f.node,       f.key, std::move(rows[w].D_body), std::move(rows[w].K),
                   {},     rows[w].load, {}};
     DenseMatrix columns = transposed(member.K);
@@ -159,7 +159,7 @@ void CrackedBody::State::replace_members() {
       DenseMatrix block(3, 3);
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
-          block(p, q) = rows[w].D_cut(p, 3 * order[j] + q);
+          block(p, q) = rows[w].D_enriched(p, 3 * order[j] + q);
       add_transposed_product(now[kept + w].K, now[j].VinvK, block);
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) {
@@ -206,7 +206,7 @@ void CrackedBody::keep_rows(RowStore* store) {
 
 void CrackedBody::set_crack(const CutComplex& cut) {
   state_->cut_nodes = cut.positions.size();
-  state_->space = make_cut_space(cut, state_->surface(), state_->body->kinds());
+  state_->space = make_enriched_space(cut, state_->surface(), state_->body->kinds());
   state_->replace_members();
   state_->eliminate_members();
 }
@@ -228,7 +228,7 @@ void CrackedBody::solve() {
   s.solution = s.body_load;
   std::vector<OpeningConstraint> constraints;
   for (const Member& member : s.members) {
-    if (member.kind != CutFunctionKind::ripple) constraints.push_back({s.solution.size(), member.normal});
+    if (member.kind != EnrichmentKind::hat) constraints.push_back({s.solution.size(), member.normal});
     for (int p = 0; p < 3; ++p)
       s.solution.push_back(member.load[p]);
   }
@@ -238,7 +238,7 @@ void CrackedBody::solve() {
                             [&](double* b, std::size_t count) { s.P.solve(b, count); });
   s.opening.assign(s.cut_nodes, Vec3::Zero());
   for (std::size_t i = 0; i < s.members.size(); ++i)
-    if (s.members[i].kind != CutFunctionKind::ripple) s.opening[s.members[i].node] = s.coefficient(i);
+    if (s.members[i].kind != EnrichmentKind::hat) s.opening[s.members[i].node] = s.coefficient(i);
 }
 
 const IdVector<NodeId, Vec3>& CrackedBody::opening() const {

@@ -19,13 +19,13 @@ struct CrackFaceStress {
 
 /// What the last set_crack() had to do.
 struct AppendStatistics {
-  std::size_t functions = 0;   ///< cut functions in the system
+  std::size_t functions = 0;   ///< enrichment functions in the system
   std::size_t assembled = 0;   ///< of these, assembled anew
   std::size_t refactored = 0;  ///< of these, eliminated anew
 };
 
-/// An elastic body with cracks under a load, by the symmetric Galerkin boundary element method.
-/// docs/theory.md §2–4
+/// An elastic body with cracks under a load, by the symmetric Galerkin boundary element method
+/// (docs/theory.md §2–4).
 /// The uncracked body is a BodyOperator, which many cracked bodies may share. A crack adds unknowns at the end
 /// of its system, and when it grows only what is new is assembled: functions whose support did not change are
 /// recognised and kept.
@@ -50,8 +50,8 @@ class CrackedBody {
   void keep_rows(RowStore* store);
   /// Replaces the crack. Errors: ComputationError when a piece has come off (the system has become singular).
   void set_crack(const CutComplex& cut);
-  /// Replaces the load, on body and crack; opening(), displacement() and what follows from them are those of
-  /// the load before until solve(). Errors: InputError when it does not fit; the load is then as before.
+  /// Replaces the load, on body and crack; call solve() before anything is read. Errors: InputError when it
+  /// does not fit; the load is then as before.
   void set_load(LoadCase load);
   void solve();
 

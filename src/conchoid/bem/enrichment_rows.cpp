@@ -1,4 +1,4 @@
-#include "conchoid/bem/cut_rows.hpp"
+#include "conchoid/bem/enrichment_rows.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,7 +9,7 @@
 namespace conchoid {
 namespace {
 
-// A cut function as one panel sees it.
+// A enrichment function as one panel sees it.
 struct LocalFunction {
   std::size_t index;  // in space.functions, or in `wanted` on the test side
   std::array<double, 3> w;
@@ -27,15 +27,15 @@ double weigh(const DoubleLayerPair& dl, const std::array<double, 3>& w) {
 
 struct TestRows {
   const LocalFunction& f;
-  CutRows rows;
+  EnrichmentRows rows;
 };
 
-class CutRowAssembler {
+class RowAssembler {
  public:
   enum class Part { all, load };
 
-  CutRowAssembler(const CutProblem& problem, const CutSpace& space, const std::vector<std::size_t>& wanted,
-                  Part part)
+  RowAssembler(const EnrichmentProblem& problem, const EnrichedSpace& space,
+               const std::vector<std::size_t>& wanted, Part part)
       : p_(problem),
         body_(problem.body.blocks()),
         space_(space),
@@ -66,7 +66,7 @@ class CutRowAssembler {
   }
 
   // Panels in batches: each panel's contributions are computed apart and added in the order of the panels.
-  std::vector<CutRows> assemble() {
+  std::vector<EnrichmentRows> assemble() {
     constexpr std::size_t batch = 64;
     for (std::size_t start = 0; start < test_panels_.size(); start += batch) {
       const std::size_t count = std::min(batch, test_panels_.size() - start);
@@ -88,22 +88,22 @@ class CutRowAssembler {
       lists[v.panel].push_back({index, v.w, curl_of(curls_[v.panel], v.w)});
   }
 
-  CutRows empty_rows() const {
-    CutRows r;
+  EnrichmentRows empty_rows() const {
+    EnrichmentRows r;
     if (part_ == Part::load) return r;
     r.D_body = DenseMatrix(3, 3 * body_.unknowns.displacement_count);
-    r.D_cut = DenseMatrix(3, 3 * space_.functions.size());
+    r.D_enriched = DenseMatrix(3, 3 * space_.functions.size());
     r.K = DenseMatrix(3 * body_.unknowns.traction_count, 3);
     return r;
   }
 
-  static void accumulate(const CutRows& from, CutRows& to) {
+  static void accumulate(const EnrichmentRows& from, EnrichmentRows& to) {
     const auto add = [](const std::vector<double>& a, std::vector<double>& b) {
       for (std::size_t i = 0; i < a.size(); ++i)
         b[i] += a[i];
     };
     add(from.D_body.data, to.D_body.data);
-    add(from.D_cut.data, to.D_cut.data);
+    add(from.D_enriched.data, to.D_enriched.data);
     add(from.K.data, to.K.data);
     to.load += from.load;
   }
@@ -121,7 +121,7 @@ class CutRowAssembler {
       if (part_ == Part::all)
         for (TestRows& t : out)
           for (const LocalFunction& g : trial_[y])
-            t.rows.D_cut.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
+            t.rows.D_enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
       if (on_surface) add_body(x, y, blocks, out);
     }
     return out;
@@ -188,30 +188,31 @@ class CutRowAssembler {
     return load;
   }
 
-  const CutProblem& p_;
+  const EnrichmentProblem& p_;
   const BodyBlocks& body_;
-  const CutSpace& space_;
+  const EnrichedSpace& space_;
   const Part part_;
   std::vector<std::array<Vec3, 3>> curls_;
   PanelFunctions trial_, test_;
   std::vector<std::size_t> test_panels_;
-  std::vector<CutRows> rows_;
+  std::vector<EnrichmentRows> rows_;
   std::vector<long> test_index_;
   std::vector<SingleLayerPair> table_;
 };
 
 }  // namespace
 
-std::vector<CutRows> assemble_cut_rows(const CutProblem& problem, const CutSpace& space,
-                                       const std::vector<std::size_t>& wanted) {
-  return CutRowAssembler(problem, space, wanted, CutRowAssembler::Part::all).assemble();
+std::vector<EnrichmentRows> assemble_enrichment_rows(const EnrichmentProblem& problem,
+                                                     const EnrichedSpace& space,
+                                                     const std::vector<std::size_t>& wanted) {
+  return RowAssembler(problem, space, wanted, RowAssembler::Part::all).assemble();
 }
 
-std::vector<Vec3> assemble_cut_loads(const CutProblem& problem, const CutSpace& space) {
+std::vector<Vec3> assemble_enrichment_loads(const EnrichmentProblem& problem, const EnrichedSpace& space) {
   std::vector<std::size_t> all(space.functions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::vector<Vec3> loads;
-  for (const CutRows& rows : CutRowAssembler(problem, space, all, CutRowAssembler::Part::load).assemble())
+  for (const EnrichmentRows& rows : RowAssembler(problem, space, all, RowAssembler::Part::load).assemble())
     loads.push_back(rows.load);
   return loads;
 }
