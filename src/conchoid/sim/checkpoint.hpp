@@ -10,7 +10,7 @@
 namespace conchoid {
 
 /// What a run leaves behind with every frame, so that it can go on where it was stopped: the rows that the
-/// frame's cut functions added to the system, one file resume/frame_0001.rows … per frame, each whole or not
+/// frame's enrichment functions added to the system, one file resume/frame_0001.rows … per frame, each whole or not
 /// there. Integrating these rows is what takes the time; a run that goes on computes everything else again
 /// and comes to the same bits.
 class Checkpoint : public RowStore, public FractureObserver {
@@ -31,13 +31,13 @@ class Checkpoint : public RowStore, public FractureObserver {
   /// Removes all of it: the run has ended by itself.
   void remove();
 
-  std::optional<std::vector<CutRows>> recall(const std::string& name) override;
-  void keep(const std::string& name, const std::vector<CutRows>& rows) override;
+  std::optional<std::vector<EnrichmentRows>> recall(const std::string& name) override;
+  void keep(const std::string& name, const std::vector<EnrichmentRows>& rows) override;
 
  private:
   struct Record {
     std::string name;
-    std::vector<CutRows> rows;
+    std::vector<EnrichmentRows> rows;
   };
   void begin(int frame);
   void finish(int frame);

@@ -77,10 +77,8 @@ std::vector<InitiationCandidate> find_branches(const PreparedBody& prepared, con
 }
 
 // Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
-std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared,
-                                                 const std::vector<BoundaryKind>& kinds,
-                                                 const CrackState& crack, const CrackedBody& body,
-                                                 double strength) {
+std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, const CrackState& crack,
+                                                 const CrackedBody& body, double strength) {
   std::vector<char> cut(prepared.surface.triangle_count(), 0);
   for (std::size_t t = 0, n = 0; t < crack.cut.surface.size(); ++t) {
     const std::size_t parent = crack.cut.surface_parent[t].index();
@@ -91,7 +89,7 @@ std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared,
   std::vector<InitiationCandidate> out;
   const std::vector<Mat3> stress = body.surface_stress();
   for (std::size_t t = 0; t < stress.size(); ++t) {
-    if (cut[t] || kinds[t] == BoundaryKind::displacement) continue;
+    if (cut[t] || body.body().kinds()[t] == BoundaryKind::displacement) continue;
     const PrincipalStress p = principal_stress(stress[t]);
     const Vec3 n = unit_normal(prepared.surface, TriId(t));
     if (std::abs(p.direction.col(0).dot(n)) > kAlongSurface) continue;
@@ -117,8 +115,8 @@ std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared,
 
 }  // namespace
 
-std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const std::vector<BoundaryKind>& kinds,
-                                        const CrackState& crack, const CrackedBody& body, std::size_t most) {
+std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const CrackState& crack,
+                                        const CrackedBody& body, std::size_t most) {
   const auto& x = crack.sheet.mesh.positions;
   const std::vector<Vec3> taken(x.begin(), x.end());
   std::vector<Vec3> fronts;
@@ -130,7 +128,7 @@ std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const std:
   std::vector<InitiationCandidate> candidates =
       find_branches(prepared, crack, body, strength, fronts, settings.min_distance);
   if (!prepared.infinite()) {
-    const auto on_surface = find_on_surface(prepared, kinds, crack, body, strength);
+    const auto on_surface = find_on_surface(prepared, crack, body, strength);
     candidates.insert(candidates.end(), on_surface.begin(), on_surface.end());
   }
   return choose_sites(candidates, taken, settings, fronts);

@@ -11,8 +11,8 @@ namespace conchoid {
 
 /// Where new cracks start under the stress as last solved: on free triangles of the body's surface that no
 /// crack cuts, or as branches on faces of cracks away from their fronts, where it exceeds the strength most.
-/// @param kinds  of the conditions, per surface triangle: none starts where the displacement is prescribed
-std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const std::vector<BoundaryKind>& kinds,
-                                        const CrackState& crack, const CrackedBody& body, std::size_t most);
+/// None starts where the displacement is prescribed.
+std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const CrackState& crack,
+                                        const CrackedBody& body, std::size_t most);
 
 }  // namespace conchoid

@@ -61,7 +61,6 @@ class Clock {
 // On the heap and never moved: its parts refer to each other.
 struct Fracture::State {
   std::shared_ptr<const PreparedBody> body;
-  BodyLoad load;
   RunSpec settings;
   ElasticConstants m;
   BemOpening bem;
@@ -84,13 +83,12 @@ struct Fracture::State {
   int carried = 0;               // frames in a row that could not be solved
   bool warned = false;           // of predictions beyond the training
 
-  State(std::shared_ptr<const PreparedBody> prepared, BodyLoad loads, const RunSpec& run,
+  State(std::shared_ptr<const PreparedBody> prepared, LoadCase loads, const RunSpec& run,
         const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
       : body(std::move(prepared)),
-        load(std::move(loads)),
         settings(run),
         m(body->material.elastic()),
-        bem(*body, load, run),
+        bem(body->elastic, std::move(loads), sif_settings(run)),
         predictor(source ? source(bem) : nullptr),
         history(body->material, body->toughness, body->crack_edge),
         crack{initial_sheet(*body), {}, {}, {}, {}, {}},
@@ -118,7 +116,7 @@ struct Fracture::State {
 // One new crack at a time, where the stress as last solved exceeds the strength most.
 void Fracture::State::start_cracks(StepReport& report) {
   if (new_cracks >= settings.max_cracks) return;
-  for (const CrackSite& site : find_crack_sites(*body, load.data.kind, crack, bem.body(), 1)) {
+  for (const CrackSite& site : find_crack_sites(*body, crack, bem.body(), 1)) {
     append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(site)));
     ++new_cracks;
     ++report.new_cracks;
@@ -231,7 +229,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     stop = StopReason::separated;
 }
 
-Fracture::Fracture(std::shared_ptr<const PreparedBody> body, BodyLoad load, const RunSpec& settings,
+Fracture::Fracture(std::shared_ptr<const PreparedBody> body, LoadCase load, const RunSpec& settings,
                    const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
     : state_(std::make_unique<State>(std::move(body), std::move(load), settings, source, std::move(law))) {}
 Fracture::~Fracture() = default;
@@ -269,6 +267,14 @@ StepReport Fracture::step() {
   return report;
 }
 
+void Fracture::set_load(LoadCase load) {
+  State& s = *state_;
+  s.bem.set_load(std::move(load));
+  if (s.stop != StopReason::arrested && s.stop != StopReason::intact) return;
+  if (s.stop == StopReason::intact) s.started = false;  // a crack is looked for again
+  s.stop.reset();
+}
+
 void Fracture::add_observer(FractureObserver& observer) {
   state_->observers.push_back(&observer);
 }
@@ -286,8 +292,8 @@ const std::shared_ptr<const PreparedBody>& Fracture::shared_body() const {
 const RunSpec& Fracture::settings() const {
   return state_->settings;
 }
-const BodyLoad& Fracture::load() const {
-  return state_->load;
+const LoadCase& Fracture::load() const {
+  return state_->bem.body().load();
 }
 int Fracture::frame() const {
   return state_->frame;

@@ -71,7 +71,7 @@ class Fracture {
   /// @param law     none: that of the greatest hoop stress, with closed faces or the published treatment of
   ///                compression as the settings say
   /// Throws ComputationError when the body's system is singular.
-  Fracture(std::shared_ptr<const PreparedBody> body, BodyLoad load, const RunSpec& settings,
+  Fracture(std::shared_ptr<const PreparedBody> body, LoadCase load, const RunSpec& settings,
            const MakeOpeningSource& source = {}, std::shared_ptr<const GrowthLaw> law = {});
   ~Fracture();
   Fracture(Fracture&&) noexcept;
@@ -83,7 +83,7 @@ class Fracture {
   StepReport step();
 
   /// Another load of the same kinds from the next step on; a fracture that was arrested or intact goes on.
-  void set_load(BodyLoad load);
+  void set_load(LoadCase load);
 
   /// Must outlive the fracture. Called in the order they were added.
   void add_observer(FractureObserver& observer);
@@ -93,7 +93,7 @@ class Fracture {
   const PreparedBody& body() const;
   const std::shared_ptr<const PreparedBody>& shared_body() const;
   const RunSpec& settings() const;
-  const BodyLoad& load() const;
+  const LoadCase& load() const;
   /// Number of frames whose opening is known.
   int frame() const;
   std::optional<StopReason> stop() const;

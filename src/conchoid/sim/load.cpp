@@ -49,10 +49,10 @@ BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
 }
 
 // Inertia relief of an unbalanced load: its stress is superposed, and its traction taken off the load.
-void balance(const Scene& scene, const TriMesh& surface, BodyLoad& load) {
-  if (!load.data.pure_traction()) return;
-  const Resultant r = resultant(surface, load.data);
-  if (balanced(r, surface)) return;
+AmbientField balance(const Scene& scene, const TriMesh& surface, BoundaryData& data) {
+  if (!data.pure_traction()) return {};
+  const Resultant r = resultant(surface, data);
+  if (balanced(r, surface)) return {};
   const std::string where = scene.boundary.empty() ? scene.file : scene.boundary.front().where;
   if (!scene.run.inertia_relief)
     throw InputError(
@@ -60,25 +60,35 @@ void balance(const Scene& scene, const TriMesh& surface, BodyLoad& load) {
                     "{:.3g} N m) and nothing is held: "
                     "fix a region, balance them, or set run.inertia_relief = true",
                     where, r.force.x(), r.force.y(), r.force.z(), r.moment.x(), r.moment.y(), r.moment.z()));
-  load.ambient = inertia_field(surface, r, scene.material.elastic());
+  AmbientField ambient = inertia_field(surface, r, scene.material.elastic());
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
     const auto& c = surface.corners[TriId(t)];
     const Vec3 n = unit_normal(surface, TriId(t));
     for (int k = 0; k < 3; ++k)  // mean over the triangle, exact for the field's quadratic stress
-      load.data.traction[t] -=
-          load.ambient.stress(0.5 * (surface.positions[c[k]] + surface.positions[c[(k + 1) % 3]])) * n / 3;
+      data.traction[t] -=
+          ambient.stress(0.5 * (surface.positions[c[k]] + surface.positions[c[(k + 1) % 3]])) * n / 3;
   }
+  return ambient;
 }
 
 }  // namespace
 
-BodyLoad load_of(const Scene& scene, const PreparedBody& body) {
+std::vector<BoundaryKind> kinds_of(const Scene& scene, const PreparedBody& body) {
+  return conditions_of(scene, body).kind;
+}
+
+LoadCase load_of(const Scene& scene, const PreparedBody& body) {
   if (body.infinite())
-    return {free_surface(body.surface),
-            uniform_stress(scene.remote_stress, scene.material.youngs_modulus, scene.material.poisson_ratio)};
-  BodyLoad load{conditions_of(scene, body), {}};
-  balance(scene, body.surface, load);
-  return load;
+    return load_case(
+        body.surface, free_surface(body.surface),
+        uniform_stress(scene.remote_stress, scene.material.youngs_modulus, scene.material.poisson_ratio));
+  BoundaryData data = conditions_of(scene, body);
+  if (body.elastic && data.kind != body.elastic->kinds())
+    throw InputError(
+        (scene.boundary.empty() ? scene.file : scene.boundary.front().where) +
+        ": the conditions hold other triangles than those that the body was prepared for; prepare it again");
+  AmbientField ambient = balance(scene, body.surface, data);
+  return load_case(body.surface, data, std::move(ambient));
 }
 
 }  // namespace conchoid

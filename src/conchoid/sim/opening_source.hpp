@@ -38,9 +38,11 @@ class OpeningSource {
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
 class BemOpening : public OpeningSource {
  public:
-  BemOpening(const PreparedBody& body, const BodyLoad& load, const RunSpec& run);
+  BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
+  /// Replaces the load; counts from the next solve() or open() on.
+  void set_load(LoadCase load) { body_.set_load(std::move(load)); }
   /// The body as it was last solved.
   const CrackedBody& body() const { return body_; }
   /// Where the rows of the cracks are kept (bem/row_store.hpp); must outlive the source.

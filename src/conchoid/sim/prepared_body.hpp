@@ -4,22 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/bem/boundary.hpp"
+#include "conchoid/bem/body_operator.hpp"
+#include "conchoid/bem/load_case.hpp"
 #include "conchoid/sim/body.hpp"
 #include "conchoid/sim/scene.hpp"
 
 namespace conchoid {
 
-/// The values of a load on a body: what is prescribed where, and the stress superposed on it (at infinity, or
-/// that of inertia relief).
-struct BodyLoad {
-  BoundaryData data;
-  AmbientField ambient;
-};
-
-/// A body made ready to compute, for any number of runs under loads of the same kinds: meshes, kinds of
-/// conditions and cracks, moved so that the body is centred at the origin (no figures are lost however far
-/// away it lies).
+/// A body made ready to compute, for any number of runs under loads of the same kinds: meshes and cracks,
+/// moved so that the body is centred at the origin (no figures are lost however far away it lies), and the
+/// boundary element operator, assembled and factored once.
 struct PreparedBody {
   Vec3 origin = Vec3::Zero();              ///< add to every position to come back to the body's coordinates
   TriMesh surface;                         ///< boundary element mesh; empty for the infinite body
@@ -42,13 +36,17 @@ struct PreparedBody {
 Body scene_body(const Scene& scene);
 
 /// A body under the conditions, material, resolution and cracks of the scene. Throws InputError, with the
-/// place in the scene file, for everything that is wrong with them: regions without triangles, several bodies,
-/// cracks outside of the body.
+/// place in the scene file, for everything that is wrong with them: regions without triangles, contradictory
+/// conditions, loads out of balance with nothing held, several bodies, cracks outside of the body; and
+/// ComputationError when the body's system is singular.
 PreparedBody prepare(const Scene& scene, Body body);
 PreparedBody prepare(const Scene& scene);
 
-/// The scene's conditions as values on the prepared body. Throws InputError for regions without triangles,
-/// contradictory conditions, and loads out of balance with nothing held.
-BodyLoad load_of(const Scene& scene, const PreparedBody& body);
+/// The scene's conditions as values on the prepared body. Throws InputError as prepare() does, and for
+/// conditions of other kinds than those it was prepared for.
+LoadCase load_of(const Scene& scene, const PreparedBody& body);
+
+/// Which quantity the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.
+std::vector<BoundaryKind> kinds_of(const Scene& scene, const PreparedBody& body);
 
 }  // namespace conchoid

@@ -38,7 +38,7 @@ SifReport compute_sifs(const Scene& scene) {
   if (body.cracks.empty())
     throw InputError(scene.file + ": there is no crack to take stress intensity factors of; add a [[crack]]");
   const SifSettings sif = sif_settings(scene.run);
-  BemOpening bem(body, load_of(scene, body), scene.run);
+  BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
   const CrackState crack = initial_crack(body);
   bem.solve(crack.cut);
   SifReport report;
@@ -62,7 +62,7 @@ StressReport compute_stress(const Scene& scene) {
     throw InputError(scene.body.where +
                      ": the infinite body has no surface to show stress on; use a body with one");
   const PreparedBody body = prepare(scene);
-  BemOpening bem(body, load_of(scene, body), scene.run);
+  BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
   bem.solve(initial_crack(body).cut);
   const IdVector<TriId, int> region = region_of_triangles(body.surface, body.regions);
   StressReport report;

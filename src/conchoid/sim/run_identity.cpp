@@ -66,12 +66,9 @@ void add(ContentHash& hash, const MaterialFrame& frame) {
   add(hash, frame.center.value_or(Vec3::Zero()));
 }
 
-void add(ContentHash& hash, const BodyLoad& load, const TriMesh& surface) {
-  for (std::size_t t = 0; t < load.data.kind.size(); ++t) {
-    hash.add(static_cast<std::uint64_t>(load.data.kind[t]));
-    add(hash, load.data.traction[t]);
-  }
-  hash.add(std::span<const Vec3>(load.data.displacement));
+void add(ContentHash& hash, const LoadCase& load, const TriMesh& surface) {
+  hash.add(std::span<const Vec3>(load.traction));
+  hash.add(std::span<const Vec3>(load.displacement));
   if (!load.ambient.stress) return;
   add(hash, load.ambient.stress(Vec3::Zero()));
   for (const Vec3& x : surface.positions)
@@ -97,7 +94,7 @@ void add_mesh(ContentHash& hash, const TriMesh& mesh) {
     hash.add(std::array{c[0].value, c[1].value, c[2].value});
 }
 
-std::string run_identity(const Scene& scene, const PreparedBody& body, const BodyLoad& load,
+std::string run_identity(const Scene& scene, const PreparedBody& body, const LoadCase& load,
                          const RunOptions& options) {
   ContentHash hash;
   for (const char* text : {CONCHOID_VERSION, __VERSION__})
@@ -112,6 +109,8 @@ std::string run_identity(const Scene& scene, const PreparedBody& body, const Bod
   add(hash, body.material);
   add(hash, body.pieces);
   hash.add(std::array{body.crack_edge, body.surface_edge});
+  for (const BoundaryKind kind : body.elastic->kinds())
+    hash.add(static_cast<std::uint64_t>(kind));
   add(hash, load, body.surface);
   add(hash, scene.run);
   return hash.hex();

@@ -1,4 +1,4 @@
-#include "conchoid/bem/cut_space.hpp"
+#include "conchoid/bem/enrichment.hpp"
 
 #include <algorithm>
 #include <map>
@@ -53,17 +53,17 @@ class Star {
   std::map<std::pair<NodeId, NodeId>, std::size_t> along_;
 };
 
-class CutSpaceBuilder {
+class SpaceBuilder {
  public:
-  CutSpaceBuilder(const CutComplex& cut, const TriMesh& surface, const BoundaryData& data)
-      : cut_(cut), surface_(surface), data_(data), surface_star_(cut.surface), crack_star_(cut.sheet) {}
+  SpaceBuilder(const CutComplex& cut, const TriMesh& surface, const std::vector<BoundaryKind>& kinds)
+      : cut_(cut), surface_(surface), kinds_(kinds), surface_star_(cut.surface), crack_star_(cut.sheet) {}
 
-  CutSpace build() {
+  EnrichedSpace build() {
     add_panels();
     classify_nodes();
     for (std::size_t i = 0; i < cut_.positions.size(); ++i)
       add_functions(NodeId(i));
-    for (CutFunction& f : out_.functions)
+    for (EnrichmentFunction& f : out_.functions)
       make_key(f);
     return std::move(out_);
   }
@@ -111,7 +111,7 @@ class CutSpaceBuilder {
         on_front_[a.index()] = on_front_[b.index()] = 1;
       }
     for (std::size_t t = 0; t < cut_.surface.size(); ++t)
-      if (data_.kind[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
+      if (kinds_[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
         for (NodeId node : cut_.surface[TriId(t)])
           fixed_[node.index()] = 1;
   }
@@ -119,7 +119,7 @@ class CutSpaceBuilder {
   void add_functions(NodeId node) {
     const bool on_mouth = !mouth_edges_[node.index()].empty();
     if (crack_star_.around(node).empty() || fixed_[node.index()]) return;
-    if (on_mouth && !is_surface_node(node)) add_ripple(node);
+    if (on_mouth && !is_surface_node(node)) add_hat(node);
     if (on_front_[node.index()]) return;
     if (!on_mouth) return add_crack_hat(node);
     if (mouth_edges_[node.index()].size() == 2) add_mouth(node);
@@ -127,19 +127,19 @@ class CutSpaceBuilder {
 
   bool is_surface_node(NodeId node) const { return node.index() < cut_.surface_node_count; }
 
-  void add_crack_values(NodeId node, CutFunction& f) const {
+  void add_crack_values(NodeId node, EnrichmentFunction& f) const {
     for (std::size_t t : crack_star_.around(node))
       f.support.push_back({out_.surface_count + t, unit_value(cut_.sheet[TriId(t)], node, -1)});
   }
 
   void add_crack_hat(NodeId node) {
-    CutFunction f{CutFunctionKind::crack, node, {}, {}};
+    EnrichmentFunction f{EnrichmentKind::crack, node, {}, {}};
     add_crack_values(node, f);
     out_.functions.push_back(std::move(f));
   }
 
-  void add_ripple(NodeId node) {
-    CutFunction f{CutFunctionKind::ripple, node, {}, {}};
+  void add_hat(NodeId node) {
+    EnrichmentFunction f{EnrichmentKind::hat, node, {}, {}};
     for (std::size_t t : surface_star_.around(node))
       f.support.push_back({t, unit_value(cut_.surface[TriId(t)], node, 1)});
     out_.functions.push_back(std::move(f));
@@ -148,7 +148,7 @@ class CutSpaceBuilder {
   // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points
   // to runs along the mouth edge in the direction the crack triangle does.
   void add_mouth(NodeId node) {
-    CutFunction f{CutFunctionKind::mouth, node, {}, {}};
+    EnrichmentFunction f{EnrichmentKind::mouth, node, {}, {}};
     std::vector<std::size_t> plus;
     if (!collect_plus_fan(node, plus)) return;
     add_crack_values(node, f);
@@ -183,7 +183,7 @@ class CutSpaceBuilder {
     return std::find(others.begin(), others.end(), b) != others.end();
   }
 
-  void make_key(CutFunction& f) const {
+  void make_key(EnrichmentFunction& f) const {
     std::vector<std::array<double, 12>> parts;
     for (const PanelValues& v : f.support) {
       const Panel& p = out_.panels[v.panel];
@@ -207,17 +207,18 @@ class CutSpaceBuilder {
 
   const CutComplex& cut_;
   const TriMesh& surface_;
-  const BoundaryData& data_;
+  const std::vector<BoundaryKind>& kinds_;
   const Star surface_star_, crack_star_;
   std::vector<char> on_front_, fixed_;
   std::vector<std::vector<NodeId>> mouth_edges_;
-  CutSpace out_;
+  EnrichedSpace out_;
 };
 
 }  // namespace
 
-CutSpace make_cut_space(const CutComplex& cut, const TriMesh& surface, const BoundaryData& data) {
-  return CutSpaceBuilder(cut, surface, data).build();
+EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
+                                  const std::vector<BoundaryKind>& kinds) {
+  return SpaceBuilder(cut, surface, kinds).build();
 }
 
 }  // namespace conchoid

@@ -1,6 +1,7 @@
-#include "conchoid/bem/cut_rows.hpp"
+#include "conchoid/bem/enrichment_rows.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "conchoid/bem/pair_blocks.hpp"
 #include "conchoid/core/parallel.hpp"
@@ -8,7 +9,7 @@
 namespace conchoid {
 namespace {
 
-// A cut function as one panel sees it.
+// A enrichment function as one panel sees it.
 struct LocalFunction {
   std::size_t index;  // in space.functions, or in `wanted` on the test side
   std::array<double, 3> w;
@@ -26,13 +27,21 @@ double weigh(const DoubleLayerPair& dl, const std::array<double, 3>& w) {
 
 struct TestRows {
   const LocalFunction& f;
-  CutRows rows;
+  EnrichmentRows rows;
 };
 
-class CutRowAssembler {
+class RowAssembler {
  public:
-  CutRowAssembler(const CutProblem& problem, const CutSpace& space, const std::vector<std::size_t>& wanted)
-      : p_(problem), space_(space), trial_(space.panels.size()), test_(space.panels.size()) {
+  enum class Part { all, load };
+
+  RowAssembler(const EnrichmentProblem& problem, const EnrichedSpace& space,
+               const std::vector<std::size_t>& wanted, Part part)
+      : p_(problem),
+        body_(problem.body.blocks()),
+        space_(space),
+        part_(part),
+        trial_(space.panels.size()),
+        test_(space.panels.size()) {
     for (const Panel& panel : space.panels)
       curls_.push_back(surface_curls(panel));
     for (std::size_t f = 0; f < space.functions.size(); ++f)
@@ -44,21 +53,20 @@ class CutRowAssembler {
     test_index_.assign(test_.size(), -1);
     for (std::size_t i = 0; i < test_panels_.size(); ++i)
       test_index_[test_panels_[i]] = static_cast<long>(i);
+    rows_.assign(wanted.size(), empty_rows());
+    if (part_ == Part::load) return;
     const std::size_t n = test_panels_.size();
     table_.resize(n * (n + 1) / 2);
     parallel_for(n, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t j = 0; j <= i; ++j)
-          table_[i * (i + 1) / 2 + j] =
-              p_.integrator.single_layer(space_.panels[test_panels_[i]], space_.panels[test_panels_[j]]);
+          table_[i * (i + 1) / 2 + j] = p_.body.integrator().single_layer(space_.panels[test_panels_[i]],
+                                                                          space_.panels[test_panels_[j]]);
     });
-    rows_.resize(wanted.size());
-    for (CutRows& r : rows_)
-      r = empty_rows();
   }
 
   // Panels in batches: each panel's contributions are computed apart and added in the order of the panels.
-  std::vector<CutRows> assemble() {
+  std::vector<EnrichmentRows> assemble() {
     constexpr std::size_t batch = 64;
     for (std::size_t start = 0; start < test_panels_.size(); start += batch) {
       const std::size_t count = std::min(batch, test_panels_.size() - start);
@@ -80,21 +88,22 @@ class CutRowAssembler {
       lists[v.panel].push_back({index, v.w, curl_of(curls_[v.panel], v.w)});
   }
 
-  CutRows empty_rows() const {
-    CutRows r;
-    r.D_body = DenseMatrix(3, 3 * p_.body.unknowns.displacement_count);
-    r.D_cut = DenseMatrix(3, 3 * space_.functions.size());
-    r.K = DenseMatrix(3 * p_.body.unknowns.traction_count, 3);
+  EnrichmentRows empty_rows() const {
+    EnrichmentRows r;
+    if (part_ == Part::load) return r;
+    r.D_body = DenseMatrix(3, 3 * body_.unknowns.displacement_count);
+    r.D_enriched = DenseMatrix(3, 3 * space_.functions.size());
+    r.K = DenseMatrix(3 * body_.unknowns.traction_count, 3);
     return r;
   }
 
-  static void accumulate(const CutRows& from, CutRows& to) {
+  static void accumulate(const EnrichmentRows& from, EnrichmentRows& to) {
     const auto add = [](const std::vector<double>& a, std::vector<double>& b) {
       for (std::size_t i = 0; i < a.size(); ++i)
         b[i] += a[i];
     };
     add(from.D_body.data, to.D_body.data);
-    add(from.D_cut.data, to.D_cut.data);
+    add(from.D_enriched.data, to.D_enriched.data);
     add(from.K.data, to.K.data);
     to.load += from.load;
   }
@@ -107,46 +116,57 @@ class CutRowAssembler {
     }
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
       const bool on_surface = y < space_.surface_count;
-      if (!on_surface && trial_[y].empty()) continue;
-      const PairBlocks blocks(pair(x, y), p_.m);
-      for (TestRows& t : out)
-        for (const LocalFunction& g : trial_[y])
-          t.rows.D_cut.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
+      if (part_ == Part::load ? !on_surface || !carries_load(y) : !on_surface && trial_[y].empty()) continue;
+      const PairBlocks blocks(pair(x, y), p_.body.material());
+      if (part_ == Part::all)
+        for (TestRows& t : out)
+          for (const LocalFunction& g : trial_[y])
+            t.rows.D_enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
       if (on_surface) add_body(x, y, blocks, out);
     }
     return out;
   }
 
+  bool carries_load(std::size_t y) const {
+    const auto& nodes = p_.body.surface().corners[space_.parent[y]];
+    return p_.load.traction[space_.parent[y].index()] != Vec3::Zero() ||
+           std::any_of(nodes.begin(), nodes.end(),
+                       [&](NodeId i) { return p_.load.displacement[i] != Vec3::Zero(); });
+  }
+
   SingleLayerPair pair(std::size_t x, std::size_t y) const {
-    const long i = test_index_[x], j = test_index_[y];
-    if (j < 0) return p_.integrator.single_layer(space_.panels[x], space_.panels[y]);
-    return i >= j ? table_[i * (i + 1) / 2 + j] : table_[j * (j + 1) / 2 + i];
+    const std::size_t i = std::max(x, y), j = test_[y].empty() ? y : std::min(x, y);
+    const std::size_t first = test_[y].empty() ? x : i;
+    if (part_ == Part::load || test_[y].empty())
+      return p_.body.integrator().single_layer(space_.panels[first], space_.panels[j]);
+    const long row = test_index_[i], column = test_index_[j];
+    return table_[row * (row + 1) / 2 + column];
   }
 
   // Interaction with the body's own functions on surface piece y.
   void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) const {
     const TriId parent = space_.parent[y];
-    const auto& nodes = p_.surface.corners[parent];
+    const auto& nodes = p_.body.surface().corners[parent];
     for (int k = 0; k < 3; ++k) {
-      const int column = p_.body.unknowns.displacement[nodes[k].index()];
-      if (column < 0 && p_.data.displacement[nodes[k]] == Vec3::Zero()) continue;
+      const int column = body_.unknowns.displacement[nodes[k].index()];
+      if (column < 0 ? p_.load.displacement[nodes[k]] == Vec3::Zero() : part_ == Part::load) continue;
       for (TestRows& t : out) {
-        const Mat3 block = blocks.hypersingular(t.f.curl, p_.body.curls[parent.index()][k]);
+        const Mat3 block = blocks.hypersingular(t.f.curl, body_.curls[parent.index()][k]);
         if (column >= 0)
           t.rows.D_body.add(0, 3 * static_cast<std::size_t>(column), block);
         else
-          t.rows.load -= block * p_.data.displacement[nodes[k]];
+          t.rows.load -= block * p_.load.displacement[nodes[k]];
       }
     }
-    const int q = p_.body.unknowns.traction[parent.index()];
-    if (q < 0 && p_.data.traction[parent.index()] == Vec3::Zero()) return;
-    const DoubleLayerPair dl = p_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+    const int q = body_.unknowns.traction[parent.index()];
+    if (q < 0 ? p_.load.traction[parent.index()] == Vec3::Zero() : part_ == Part::load) return;
+    const DoubleLayerPair dl = p_.body.integrator().double_layer(space_.panels[y], space_.panels[x]);
     for (TestRows& t : out) {
       const Mat3 block = blocks.double_layer(t.f.curl, weigh(dl, t.f.w));
       if (q >= 0)
         t.rows.K.add(3 * static_cast<std::size_t>(q), 0, block);
       else
-        t.rows.load -= block.transpose() * p_.data.traction[parent.index()];
+        t.rows.load -= block.transpose() * p_.load.traction[parent.index()];
     }
   }
 
@@ -156,34 +176,45 @@ class CutRowAssembler {
     if (x < space_.surface_count) {
       const std::size_t t = space_.parent[x].index();
       const double mean = (f.w[0] + f.w[1] + f.w[2]) / 3;
-      return p_.data.kind[t] == BoundaryKind::traction ? Vec3(0.5 * mean * panel.area * p_.data.traction[t])
-                                                       : Vec3::Zero();
+      return 0.5 * mean * panel.area * p_.load.traction[t];
     }
-    if (!p_.ambient.stress) return Vec3::Zero();
+    if (!p_.load.ambient.stress) return Vec3::Zero();
     Vec3 load = Vec3::Zero();
     for (int k = 0; k < 3; ++k) {  // edge midpoints: exact for linear stress times linear shape
       const Vec3 middle = 0.5 * (panel.x[k] + panel.x[(k + 1) % 3]);
       const double opening = -0.5 * (f.w[k] + f.w[(k + 1) % 3]);
-      load += panel.area / 3 * opening * (p_.ambient.stress(middle) * panel.normal);
+      load += panel.area / 3 * opening * (p_.load.ambient.stress(middle) * panel.normal);
     }
     return load;
   }
 
-  const CutProblem& p_;
-  const CutSpace& space_;
+  const EnrichmentProblem& p_;
+  const BodyBlocks& body_;
+  const EnrichedSpace& space_;
+  const Part part_;
   std::vector<std::array<Vec3, 3>> curls_;
   PanelFunctions trial_, test_;
   std::vector<std::size_t> test_panels_;
-  std::vector<CutRows> rows_;
+  std::vector<EnrichmentRows> rows_;
   std::vector<long> test_index_;
   std::vector<SingleLayerPair> table_;
 };
 
 }  // namespace
 
-std::vector<CutRows> assemble_cut_rows(const CutProblem& problem, const CutSpace& space,
-                                       const std::vector<std::size_t>& wanted) {
-  return CutRowAssembler(problem, space, wanted).assemble();
+std::vector<EnrichmentRows> assemble_enrichment_rows(const EnrichmentProblem& problem,
+                                                     const EnrichedSpace& space,
+                                                     const std::vector<std::size_t>& wanted) {
+  return RowAssembler(problem, space, wanted, RowAssembler::Part::all).assemble();
+}
+
+std::vector<Vec3> assemble_enrichment_loads(const EnrichmentProblem& problem, const EnrichedSpace& space) {
+  std::vector<std::size_t> all(space.functions.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Vec3> loads;
+  for (const EnrichmentRows& rows : RowAssembler(problem, space, all, RowAssembler::Part::load).assemble())
+    loads.push_back(rows.load);
+  return loads;
 }
 
 }  // namespace conchoid
