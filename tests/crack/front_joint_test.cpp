@@ -126,11 +126,11 @@ TEST(FrontJoint, TwoDiscsInOnePlaneBecomeOneCrack) {
     const auto& front = growth.sheet.fronts[0];
     for (const NodeId n : front.nodes)
       EXPECT_EQ(growth.sheet.state[n], FrontState::active);
-    std::map<NodeId, Vec3> rides;
+    std::map<NodeId, Vec3> attached;
     for (const Marker& m : growth.fine.curves()[0].markers)
-      if (m.coarse.valid()) rides.emplace(m.coarse, m.position);
+      if (m.coarse.valid()) attached.emplace(m.coarse, m.position);
     for (const NodeId n : front.nodes)
-      EXPECT_LT((rides.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
+      EXPECT_LT((attached.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
   }
 }
 

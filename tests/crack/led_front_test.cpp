@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEdge = 0.2, kToughness = 1e6;
 
-/// A ring of the given number of markers around the unit circle; every `per`-th carries a coarse node.
+/// A ring of the given number of markers around the unit circle; every `per`-th has a coarse node attached.
 MarkerCurve ring(int count, int per) {
   MarkerCurve curve;
   curve.closed = true;
@@ -143,7 +143,7 @@ TEST(FrontTrack, AnOpenFrontEndsAtItsEnds) {
   EXPECT_EQ(track.at(-1, 0.5), positions[0]);
 }
 
-TEST(AttachedRiders, FollowNodesThatMovedAlongTheFront) {
+TEST(AttachedNodes, FollowNodesThatMovedAlongTheFront) {
   constexpr int kCount = 80, kPer = 10;
   MarkerCurve curve = ring(kCount, kPer);
   IdVector<NodeId, Vec3> nodes;
@@ -151,7 +151,7 @@ TEST(AttachedRiders, FollowNodesThatMovedAlongTheFront) {
     const double phi = 2 * std::numbers::pi * (k * kPer + (k % 2 ? 2.3 : -1.2)) / kCount;
     nodes.add(Vec3(1.02 * std::cos(phi), 1.02 * std::sin(phi), 0.01));
   }
-  attach_riders(curve, node_ids(8), nodes);
+  reattach_nodes(curve, node_ids(8), nodes);
   set_parameters(curve, node_ids(8));
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Marker& m = curve.markers[i];

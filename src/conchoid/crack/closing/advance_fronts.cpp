@@ -131,7 +131,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   std::erase_if(steps, [&](const FrontStep& step) { return step.most < kLeastRoom * target_edge; });
   const auto motions = fine.advance(sheet, steps, model);
   if (led) led->advance(sheet, steps, model, fine);
-  for (const NodeId node : fine.stopped_riders())
+  for (const NodeId node : fine.stopped_nodes())
     if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;
   settings.smoothing = 0;

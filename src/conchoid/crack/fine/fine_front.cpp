@@ -36,11 +36,11 @@ double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
 MarkerCurve initial_curve(const TriMesh& surface, const Subdivision& fine, const SheetFront& coarse) {
   MarkerCurve curve;
   curve.closed = coarse.closed;
-  const auto add = [&](NodeId node, NodeId rider) {
+  const auto add = [&](NodeId node, NodeId attached) {
     Marker marker;
     marker.node = node;
     marker.position = surface.positions[node];
-    marker.coarse = rider;
+    marker.coarse = attached;
     curve.markers.push_back(marker);
   };
   const std::size_t n = coarse.nodes.size();
@@ -85,8 +85,9 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
     case StripNode::Kind::merged:
       for (std::size_t i = node.first; i != node.last;) {
         i = old.next(i);
-        const bool rides = old.markers[i].coarse.valid();
-        if (rides || (!marker.coarse.valid() && old.markers[i].node < marker.node)) marker = old.markers[i];
+        const bool attached = old.markers[i].coarse.valid();
+        if (attached || (!marker.coarse.valid() && old.markers[i].node < marker.node))
+          marker = old.markers[i];
       }
       break;
     case StripNode::Kind::inserted: {
@@ -162,7 +163,7 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     FrontSteps steps(sheet, sheet.fronts[f], normals, step_of);
     if (settings_.smooth_angles) steps.smooth_angles();
     MarkerCurve& curve = curves_[f];
-    if (leaders) attach_riders(curve, steps.nodes(), sheet.mesh.positions);
+    if (leaders) reattach_nodes(curve, steps.nodes(), sheet.mesh.positions);
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers) {
       marker.direction_before = marker.direction;
@@ -246,7 +247,7 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
   }
 }
 
-std::vector<NodeId> FineFront::stopped_riders() const {
+std::vector<NodeId> FineFront::stopped_nodes() const {
   std::vector<NodeId> out;
   for (const MarkerCurve& curve : curves_)
     for (const Marker& marker : curve.markers)
@@ -300,7 +301,7 @@ void FineFront::append_motions(const CrackSheet& sheet, MarkerCurve& curve, cons
     moves.push_back(steps.moves(k) && !held.contains(steps.nodes()[k]));
     center += sheet.mesh.positions[steps.nodes()[k]] / static_cast<double>(steps.size());
   }
-  slide_riders(curve, steps.nodes(), moves);
+  slide_attached_nodes(curve, steps.nodes(), moves);
   std::unordered_map<NodeId, Vec3> position;
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve.markers[i].coarse.valid()) position.emplace(curve.markers[i].coarse, coarse_position(curve, i));
@@ -347,7 +348,7 @@ void FineFront::follow(MarkerCurve& curve, const std::vector<FrontSuccession>& s
   std::unordered_map<NodeId, std::size_t> at;
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve.markers[i].coarse.valid()) at.emplace(curve.markers[i].coarse, i);
-  std::vector<NodeId> rider(curve.size());
+  std::vector<NodeId> attached(curve.size());
   for (const FrontSuccession& s : succession) {
     const auto first = at.find(s.first), last = at.find(s.last);
     if (first == at.end() || last == at.end()) continue;
@@ -356,10 +357,10 @@ void FineFront::follow(MarkerCurve& curve, const std::vector<FrontSuccession>& s
       marker = marker_between(curve, first->second, last->second, 0.5, true);
     if (s.kind == FrontSuccession::Kind::inserted)
       marker = marker_between(curve, first->second, last->second, s.s, false);
-    if (!rider[marker].valid()) rider[marker] = s.node;
+    if (!attached[marker].valid()) attached[marker] = s.node;
   }
   for (std::size_t i = 0; i < curve.size(); ++i)
-    curve.markers[i].coarse = rider[i];
+    curve.markers[i].coarse = attached[i];
 }
 
 void FineFront::close(MarkerCurve& curve) {

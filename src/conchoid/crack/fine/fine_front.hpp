@@ -21,7 +21,7 @@ struct FineFrontSettings {
 };
 
 /// The visible crack surface: along every coarse front a polyline of markers, about h apart (kept within 0.5
-/// h … 1.5 h), and the fine sheet they sweep. Every coarse front node rides on one marker; where the
+/// h … 1.5 h), and the fine sheet they sweep. Every coarse front node is attached to one marker; where the
 /// toughness varies it lies on the markers' curve smoothed over r̄, as the boundary elements see nothing
 /// finer. A frame of r̄/c_R is made in sub-steps; in each a marker moves by
 ///     GrowthLaw::length(K_eff, K_c(x), r̄) / sub-steps,
@@ -38,7 +38,7 @@ struct FineFrontSettings {
 /// A marker stops for good at the face of a crack: half of h before it where it is a face of its own crack,
 /// which may not cross itself, and half of h beyond where it is another's, so that the two cut the body
 /// together. Markers between coarse nodes that both lie outside of the body are not looked after. Coarse
-/// nodes that ride on stopped markers are arrested.
+/// nodes attached to stopped markers are arrested.
 ///
 /// One frame:  motions = fine.advance(sheet, steps, model);
 ///             result = advance(sheet, motions, r̄, {smoothing 0, between fine.between});  fine.adopt(sheet,
@@ -70,7 +70,7 @@ class FineFront {
   void join(const CrackSheet& sheet, const FrontJoint& joint, const JoinedFronts& joined);
 
   /// Position of the marker nearest to the fraction s of the way along the markers from coarse node a to b;
-  /// none if one of them rides on no marker.
+  /// none if one of them is attached to no marker.
   std::optional<Vec3> between(NodeId a, NodeId b, double s) const;
 
   /// Follows the coarse fronts through an advance of the sheet: hands markers over to the new coarse nodes;
@@ -85,8 +85,8 @@ class FineFront {
   const IdVector<TriId, int>& triangle_birth() const { return birth_; }
   /// As CrackSheet::fronts; empty where the fine front has closed before the coarse one.
   const std::vector<MarkerCurve>& curves() const { return curves_; }
-  /// Coarse nodes that ride on a marker which has run into a face.
-  std::vector<NodeId> stopped_riders() const;
+  /// Coarse nodes attached to a marker which has run into a face.
+  std::vector<NodeId> stopped_nodes() const;
 
  private:
   /// How a marker lies against the front smoothed over r̄.
@@ -125,7 +125,7 @@ class FineFront {
   std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps,
                                 const std::vector<Vec3>& smooth) const;
   double weaker_side(const Path& path, const Toughness& here, const GrowthModel& model) const;
-  /// Where a coarse node lies that rides on marker i.
+  /// Where a coarse node lies that is attached to marker i.
   Vec3 coarse_position(const MarkerCurve& curve, std::size_t i) const;
   /// Stops markers whose path since `from` (positions, one per marker) leads into a face.
   void stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,

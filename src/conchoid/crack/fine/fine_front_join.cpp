@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLongestAcross = 1.5;  ///< × h: edges across a ligament
 
-/// The marker that carries a coarse node, else the one nearest to it.
+/// The marker a coarse node is attached to, else the one nearest to it.
 std::size_t marker_at(const MarkerCurve& curve, NodeId coarse, const Vec3& x) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -181,10 +181,10 @@ void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const Joi
       }
       links.emplace_back(from, to);
     };
-    for (const auto& [marker, rider] :
+    for (const auto& [marker, node] :
          {std::pair{a.front(), joint.first.front()}, std::pair{a.back(), joint.first.back()},
           std::pair{b.front(), joint.second.front()}, std::pair{b.back(), joint.second.back()}}) {
-      markers[marker].coarse = rider;
+      markers[marker].coarse = node;
       markers[marker].direction.setZero();
       markers[marker].arrested = markers[marker].at_own_face = false;
     }
@@ -212,7 +212,7 @@ void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const Joi
           curve.markers.push_back(markers[i]);
         break;
       }
-    for (Marker& marker : curve.markers)  // of the other's nodes none may ride here
+    for (Marker& marker : curve.markers)  // of the other's nodes none may be attached here
       if (marker.coarse.valid() &&
           std::find(front.nodes.begin(), front.nodes.end(), marker.coarse) == front.nodes.end())
         marker.coarse = NodeId();
