@@ -107,7 +107,7 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
 }  // namespace
 
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& given,
-                             const GrowthModel& model, double target_edge, FineFront* led) {
+                             const GrowthModel& model, double target_edge, FineFront* follower) {
   std::vector<FrontStep> steps = given;
   auto expected = expected_motions(sheet, steps, model, target_edge);
   for (std::size_t left = expected.size(); left > 0; --left) {
@@ -115,7 +115,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
     if (!joint) break;
     const JoinedFronts joined = join_fronts(sheet, *joint);
     fine.join(sheet, *joint, joined);
-    if (led) led->join(sheet, *joint, joined);
+    if (follower) follower->join(sheet, *joint, joined);
     // The front turns there: frame and K are those of the front that was.
     std::erase_if(steps, [&](const FrontStep& step) {
       return step.node == joint->first.front() || step.node == joint->first.back() ||
@@ -130,7 +130,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
     if (const auto at = room.find(step.node); at != room.end()) step.most = at->second;
   std::erase_if(steps, [&](const FrontStep& step) { return step.most < kLeastRoom * target_edge; });
   const auto motions = fine.advance(sheet, steps, model);
-  if (led) led->advance(sheet, steps, model, fine);
+  if (follower) follower->advance(sheet, steps, model, fine);
   for (const NodeId node : fine.stopped_nodes())
     if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;
@@ -149,7 +149,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   };
   AdvanceResult result = advance(sheet, motions, target_edge, settings);
   fine.adopt(sheet, result);
-  if (led) led->adopt(sheet, result);
+  if (follower) follower->adopt(sheet, result);
   return result;
 }
 

@@ -144,13 +144,13 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
 }
 
 void FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                        const GrowthModel& model, const FineFront& leader) {
-  advance(sheet, steps, model, &leader.tracks_);
+                        const GrowthModel& model, const FineFront& driving) {
+  advance(sheet, steps, model, &driving.tracks_);
 }
 
 std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
                                             const GrowthModel& model,
-                                            const std::vector<FrontTrack>* leaders) {
+                                            const std::vector<FrontTrack>* driving) {
   append_parts(sheet);
   frame_ = sheet.frame + 1;
   std::unordered_map<NodeId, FrontStep> step_of;
@@ -163,31 +163,31 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     FrontSteps steps(sheet, sheet.fronts[f], normals, step_of);
     if (settings_.smooth_angles) steps.smooth_angles();
     MarkerCurve& curve = curves_[f];
-    if (leaders) reattach_nodes(curve, steps.nodes(), sheet.mesh.positions);
+    if (driving) reattach_nodes(curve, steps.nodes(), sheet.mesh.positions);
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers) {
       marker.direction_before = marker.direction;
       marker.moved = false;
-      if (leaders && marker.at_own_face) marker.arrested = marker.at_own_face = false;
+      if (driving && marker.at_own_face) marker.arrested = marker.at_own_face = false;
     }
     std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
     for (std::size_t k = 0; k < steps.size(); ++k)
       inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
                        sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
                            FrontState::outside);
-    sweep(curve, steps, inside, model, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
-    if (!leaders) append_motions(sheet, curve, steps, motions);
+    sweep(curve, steps, inside, model, tracks_[f], driving ? &(*driving)[f] : nullptr);
+    if (!driving) append_motions(sheet, curve, steps, motions);
   }
   return motions;
 }
 
 void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
-                      const GrowthModel& model, FrontTrack& track, const FrontTrack* leader) {
+                      const GrowthModel& model, FrontTrack& track, const FrontTrack* driving) {
   const auto smooth_front = [&](double time) {
-    if (!leader || leader->empty()) return smoothed_positions(curve, settings_.resolution);
+    if (!driving || driving->empty()) return smoothed_positions(curve, settings_.resolution);
     std::vector<Vec3> on_track;
     for (const Marker& marker : curve.markers)
-      on_track.push_back(leader->at(marker.parameter, time));
+      on_track.push_back(driving->at(marker.parameter, time));
     return on_track;
   };
   const double divided = settings_.resolution / settings_.spacing / settings_.sub_steps;

@@ -45,9 +45,9 @@ struct FineFrontSettings {
 ///             result);
 /// or advance_fronts(), which does just that.
 ///
-/// A second fine front of other spacing may be led by the one that moves the coarse nodes: it follows its
-/// coarse nodes and lies against its smoothed curve instead of its own, so that it shows more or less detail
-/// of the same fracture and has no effect on it.
+/// A second fine front of other spacing may follow the one that moves the coarse nodes, the driving front: it
+/// keeps to the same coarse nodes and lies against the smoothed curve of the driving front instead of its own,
+/// so that it shows more or less detail of the same fracture and has no effect on it.
 class FineFront {
  public:
   /// The initial fine sheet: the sheet's triangles, each divided uniformly to edges of about h.
@@ -60,10 +60,10 @@ class FineFront {
   /// markers between two of them. @return the displacements of the coarse nodes
   std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
                                    const GrowthModel& model);
-  /// The same for a front that is led by another, which has advanced already. Where only this one met a face
+  /// The same for a front that follows another, which has advanced already. Where only this one met a face
   /// of its own crack it tries again in the next frame.
   void advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps, const GrowthModel& model,
-               const FineFront& leader);
+               const FineFront& driving);
 
   /// Breaks the ligament between two stretches of fronts, as join_fronts() has just done in the sheet, and
   /// joins what is left of their markers' curves.
@@ -111,10 +111,10 @@ class FineFront {
   };
 
   std::vector<FrontMotion> advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                   const GrowthModel& model, const std::vector<FrontTrack>* leaders);
-  /// One frame of one front. @param inside  per coarse edge  @param leader  may be null
+                                   const GrowthModel& model, const std::vector<FrontTrack>* driving);
+  /// One frame of one front. @param inside  per coarse edge  @param driving  track of the front it follows; may be null
   void sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
-             const GrowthModel& model, FrontTrack& track, const FrontTrack* leader);
+             const GrowthModel& model, FrontTrack& track, const FrontTrack* driving);
   /// The nodes between two stretches that have been joined, at their ends (see FrontJoint).
   struct JointEnds {
     std::vector<NodeId> at_first, at_second;  ///< from first.front() on, from second.front() on

@@ -61,20 +61,21 @@ Toughness homogeneous(const Vec3&) {
   return {kToughness, Vec3::Zero()};
 }
 
-/// A disc that grows and twists, with a led front or without.
+/// A disc that grows and twists, with a follower front or without.
 struct Growth {
   CrackSheet sheet;
   FineFront fine;
-  std::optional<FineFront> led;
+  std::optional<FineFront> follower;
 
-  explicit Growth(std::optional<double> led_spacing)
+  explicit Growth(std::optional<double> follower_spacing)
       : sheet([] {
           CrackSheet s;
           append_part(s, disc(0.6, 3));
           return s;
         }()),
         fine(sheet, {.resolution = kEdge, .spacing = kEdge / 10}) {
-    if (led_spacing) led.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *led_spacing});
+    if (follower_spacing)
+      follower.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *follower_spacing});
   }
 
   void frame(const ToughnessField& toughness) {
@@ -85,7 +86,7 @@ struct Growth {
       steps.push_back(
           {sheet.fronts[0].nodes[i], frames[i], 0.3 * x.y() + 0.1, (1.8 + 0.4 * x.x()) * kToughness});
     }
-    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, led ? &*led : nullptr);
+    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, follower ? &*follower : nullptr);
   }
 };
 
@@ -169,7 +170,7 @@ TEST(AttachedNodes, FollowNodesThatMovedAlongTheFront) {
                              [](const Marker& a, const Marker& b) { return a.parameter < b.parameter; }));
 }
 
-TEST(LedFront, HasNoEffectOnTheCrack) {
+TEST(FollowerFront, HasNoEffectOnTheCrack) {
   for (const ToughnessField& field : {ToughnessField(homogeneous), ToughnessField(varied)}) {
     Growth alone(std::nullopt), with(kEdge / 25);
     for (int frame = 0; frame < 5; ++frame) {
@@ -183,17 +184,17 @@ TEST(LedFront, HasNoEffectOnTheCrack) {
   }
 }
 
-// Whatever its spacing: over many frames it stays with the front that leads it.
-TEST(LedFront, StaysWithItsLeader) {
+// Whatever its spacing: over many frames it stays with the front it follows.
+TEST(FollowerFront, StaysWithTheFrontItFollows) {
   for (const double share : {0.25, 0.2, 0.05, 0.025})
     for (const bool structure : {false, true}) {
       Growth growth(share * kEdge);
       for (int frame = 0; frame < 7; ++frame)
         growth.frame(structure ? ToughnessField(varied) : ToughnessField(homogeneous));
-      const Apart off = apart(growth.led->curves()[0], growth.fine.curves()[0]);
+      const Apart off = apart(growth.follower->curves()[0], growth.fine.curves()[0]);
       EXPECT_LT(off.mean, 0.01 * kEdge) << share;
       EXPECT_LT(off.largest, 0.04 * kEdge) << share;
-      const MarkerCurve& curve = growth.led->curves()[0];
+      const MarkerCurve& curve = growth.follower->curves()[0];
       const double h = std::min(share, 0.25) * kEdge;
       for (std::size_t i = 0; i < curve.size(); ++i)
         EXPECT_LT(curve.spacing(i), 1.6 * h);
