@@ -40,17 +40,17 @@ std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::ve
 }
 
 /// How far nodes may move [m].
-using Room = std::unordered_map<NodeId, double>;
+using StepLimits = std::unordered_map<NodeId, double>;
 
-void limit(Room& room, NodeId node, double length) {
-  double& most = room.try_emplace(node, length).first->second;
-  most = std::min(most, length);
+void limit(StepLimits& limits, NodeId node, double length) {
+  double& least = limits.try_emplace(node, length).first->second;
+  least = std::min(least, length);
 }
 
 /// Nodes that touch and have not been joined stop for good, unless the ligament is wide and will be narrow
 /// enough in the next frame; then both sides go on by a part of it.
 void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected, double target_edge,
-                    Room& room) {
+                    StepLimits& limits) {
   std::unordered_map<NodeId, double> way;
   for (const FrontMotion& motion : expected)
     way.emplace(motion.node, motion.displacement.norm());
@@ -71,14 +71,14 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
     for (const NodeId n : {node, ends[0], ends[1]}) {
       if (sheet.state[n] != FrontState::active) continue;
       if (!wide) sheet.state[n] = FrontState::arrested;
-      if (const auto at = way.find(n); wide && at != way.end()) limit(room, n, share * at->second);
+      if (const auto at = way.find(n); wide && at != way.end()) limit(limits, n, share * at->second);
     }
   }
 }
 
 /// Where the front opens like a wedge its sides come together first: the node at its bottom waits, and the
 /// next ones leave room for the other side.
-void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& expected, Room& room) {
+void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& expected, StepLimits& limits) {
   std::unordered_set<NodeId> moving;
   for (const FrontMotion& motion : expected)
     if (sheet.state[motion.node] == FrontState::active) moving.insert(motion.node);
@@ -92,13 +92,13 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
       const std::size_t before = previous_index(i, n, front.closed), after = next_index(i, n, front.closed);
       if (moving.contains(front.nodes[before]) && moving.contains(front.nodes[after]) &&
           opening_angle(sheet, front, frames[i], i) < kWedge)
-        limit(room, node, 0);
+        limit(limits, node, 0);
       for (const auto& [a, b] : {std::pair{before, previous_index(before, n, front.closed)},
                                  std::pair{after, next_index(after, n, front.closed)}}) {
         if (a == i || b == a || b == i) continue;
         if ((frames[a].e2 + frames[b].e2).normalized().dot(frames[i].e2) > kTurned) continue;
         if ((0.5 * (x[front.nodes[a]] + x[front.nodes[b]]) - x[node]).dot(frames[i].e2) <= 0) continue;
-        limit(room, node, kRoom * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
+        limit(limits, node, kRoom * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
       }
     }
   }
@@ -123,12 +123,12 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
     });
     expected = expected_motions(sheet, steps, model, target_edge);
   }
-  Room room;
-  stop_at_fronts(sheet, expected, target_edge, room);
-  wait_in_corners(sheet, expected, room);
+  StepLimits limits;
+  stop_at_fronts(sheet, expected, target_edge, limits);
+  wait_in_corners(sheet, expected, limits);
   for (FrontStep& step : steps)
-    if (const auto at = room.find(step.node); at != room.end()) step.most = at->second;
-  std::erase_if(steps, [&](const FrontStep& step) { return step.most < kLeastRoom * target_edge; });
+    if (const auto at = limits.find(step.node); at != limits.end()) step.limit = at->second;
+  std::erase_if(steps, [&](const FrontStep& step) { return step.limit < kLeastRoom * target_edge; });
   const auto motions = fine.advance(sheet, steps, model);
   if (follower) follower->advance(sheet, steps, model, fine);
   for (const NodeId node : fine.stopped_nodes())

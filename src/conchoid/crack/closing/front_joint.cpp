@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 

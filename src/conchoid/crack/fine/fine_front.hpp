@@ -90,7 +90,7 @@ class FineFront {
 
  private:
   /// How a marker lies against the front smoothed over r̄.
-  struct Relief {
+  struct FrontPerturbation {
     double intensity = 1;  ///< factor on K_eff: what lags behind gets more
     double height = 0;     ///< towards e1 [r̄]
   };
@@ -122,8 +122,8 @@ class FineFront {
   JointEnds fill_ligament(const std::vector<NodeId>& first, const std::vector<NodeId>& second, int part);
   bool move_markers(MarkerCurve& curve, const FrontSteps& steps, const GrowthModel& model,
                     const SubStep& part);
-  std::vector<Relief> relief_of(const MarkerCurve& curve, const FrontSteps& steps,
-                                const std::vector<Vec3>& smooth) const;
+  std::vector<FrontPerturbation> perturbations(const MarkerCurve& curve, const FrontSteps& steps,
+                                               const std::vector<Vec3>& smooth) const;
   double weaker_side(const Path& path, const Toughness& here, const GrowthModel& model) const;
   /// Where a coarse node lies that is attached to marker i.
   Vec3 coarse_position(const MarkerCurve& curve, std::size_t i) const;

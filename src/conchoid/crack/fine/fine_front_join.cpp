@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 

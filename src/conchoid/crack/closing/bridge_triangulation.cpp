@@ -1,4 +1,4 @@
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 
 #include <algorithm>
 #include <limits>
