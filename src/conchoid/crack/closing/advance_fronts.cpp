@@ -3,23 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "conchoid/crack/closing/front_joint.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kLigamentLeft = 0.8;  ///< × r̄: to which ligaments are narrowed that are too wide to break
-constexpr double kTurned = 0.5;        ///< cosine between the ways of two parts of a front that come together
-constexpr double kRoom = 0.4;          ///< of the gap between them: each may take so much
-constexpr double kLeastRoom = 0.05;    ///< × r̄: with less of it a node stays
-constexpr double kWedge = 120 * std::numbers::pi / 180;  ///< opening of a front that waits for its sides
 
 /// What the nodes are about to do, before the markers say it exactly.
 std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
@@ -67,7 +61,7 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
       alike = alike && normals[n].dot(normals[node]) > kAlikeSheets;
     }
     const bool wide = alike && touch.gap > kWidestLigament * target_edge;
-    const double share = (touch.gap - kLigamentLeft * target_edge) / (way.at(node) + opposite);
+    const double share = (touch.gap - kNarrowedLigament * target_edge) / (way.at(node) + opposite);
     for (const NodeId n : {node, ends[0], ends[1]}) {
       if (sheet.state[n] != FrontState::active) continue;
       if (!wide) sheet.state[n] = FrontState::arrested;
@@ -91,14 +85,15 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
       const NodeId node = front.nodes[i];
       const std::size_t before = previous_index(i, n, front.closed), after = next_index(i, n, front.closed);
       if (moving.contains(front.nodes[before]) && moving.contains(front.nodes[after]) &&
-          opening_angle(sheet, front, frames[i], i) < kWedge)
+          opening_angle(sheet, front, frames[i], i) < kWaitingWedge)
         limit(limits, node, 0);
       for (const auto& [a, b] : {std::pair{before, previous_index(before, n, front.closed)},
                                  std::pair{after, next_index(after, n, front.closed)}}) {
         if (a == i || b == a || b == i) continue;
-        if ((frames[a].e2 + frames[b].e2).normalized().dot(frames[i].e2) > kTurned) continue;
+        if ((frames[a].e2 + frames[b].e2).normalized().dot(frames[i].e2) > kFacingWays) continue;
         if ((0.5 * (x[front.nodes[a]] + x[front.nodes[b]]) - x[node]).dot(frames[i].e2) <= 0) continue;
-        limit(limits, node, kRoom * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
+        limit(limits, node,
+              kShareOfGap * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
       }
     }
   }
@@ -128,7 +123,7 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   wait_in_corners(sheet, expected, limits);
   for (FrontStep& step : steps)
     if (const auto at = limits.find(step.node); at != limits.end()) step.limit = at->second;
-  std::erase_if(steps, [&](const FrontStep& step) { return step.limit < kLeastRoom * target_edge; });
+  std::erase_if(steps, [&](const FrontStep& step) { return step.limit < kLeastStep * target_edge; });
   const auto motions = fine.advance(sheet, steps, model);
   if (follower) follower->advance(sheet, steps, model, fine);
   for (const NodeId node : fine.stopped_nodes())

@@ -10,19 +10,11 @@
 #include "conchoid/crack/fine/subdivide.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/front/strip.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kShortest = 0.5, kLongest = 1.5;  ///< × h: spacing of the markers
-constexpr double kRowAfter = 0.5;      ///< × h: distance from the last row at which a marker leaves the next
-constexpr double kLastRowAfter = 0.1;  ///< × h: the same at the end of a run
-constexpr double kFaceDistance = 0.5;  ///< × h: how far from a face a marker stops
-constexpr std::size_t kOwnMarkers = 4;  ///< markers on either side whose rows are not in a marker's way
-constexpr int kMostParts = 4;           ///< of a sub-step, where h is finer than it
-constexpr int kMostDivisions = 64;      ///< edges of initial triangles are divided into at most this many
-constexpr double kRound = 1e-6;  ///< so that r̄/h = 20 + round-off is 20, and a face just reached is reached
 
 double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
   const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
@@ -119,7 +111,7 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f)
     edge = std::max(edge, mean_front_edge(sheet.mesh, sheet.fronts[f]));
   const int parts =
-      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostDivisions);
+      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRoundOff)), 1, kInitialDivisions);
   const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
   const std::vector<int> connected = connected_parts(surface_);
   std::map<int, int> part;  // numbers that no earlier part has
@@ -191,7 +183,7 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     return on_track;
   };
   const double divided = settings_.resolution / settings_.spacing / settings_.sub_steps;
-  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRound)), 1, kMostParts);
+  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRoundOff)), 1, kSubStepParts);
   const int count = parts * settings_.sub_steps;
   for (int step = 0; step < count; ++step) {
     const double begin = static_cast<double>(step) / count;
@@ -211,7 +203,7 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     }
     if (!move_markers(curve, steps, model, part)) continue;
     stop_at_faces(curve, from, inside);
-    leave_row(curve, kRowAfter * settings_.spacing);
+    leave_row(curve, kRowDistance * settings_.spacing);
   }
   if (varied_) track.add(1, curve, smooth_front(1), steps.size());
 }
@@ -238,7 +230,7 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
     const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
     if (!hit) continue;
     const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
-    if (hit->part != curve.part && at > (1 + kRound) * way.norm()) continue;  // not there yet
+    if (hit->part != curve.part && at > (1 + kRoundOff) * way.norm()) continue;  // not there yet
     marker.arrested = true;
     marker.at_own_face = hit->part == curve.part;
     const double stop =
@@ -268,7 +260,7 @@ void FineFront::leave_row(MarkerCurve& curve, double least) {
   }
   if (!any) return;
   const double h = settings_.spacing;
-  const StripSettings strip_settings{kLongest * h, kShortest * h, kShortest * h,
+  const StripSettings strip_settings{kLongestSpacing * h, kShortestSpacing * h, kShortestSpacing * h,
                                      [&](std::size_t a, std::size_t b, double s) {
                                        if (s != 0.5) return Vec3((1 - s) * row.target[a] + s * row.target[b]);
                                        return smooth_middle(row, a, b);
@@ -378,7 +370,7 @@ void FineFront::close(MarkerCurve& curve) {
 
 void FineFront::finish() {
   for (MarkerCurve& curve : curves_)
-    leave_row(curve, kLastRowAfter * settings_.spacing);
+    leave_row(curve, kLastRowDistance * settings_.spacing);
 }
 
 }  // namespace conchoid

@@ -1,22 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/fine/front_smoothing.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 // One sub-step of the markers.
 namespace conchoid {
-
-namespace {
-
-constexpr double kTension = std::numbers::pi;  ///< of K by the front's shape: that of a wave of wavelength r̄
-constexpr double kLeastIntensity = 0.25, kMostIntensity = 4;  ///< × K_eff: what the shape does to it at most
-constexpr double kHeight = 1;                                 ///< fall per r̄ above the smoothed front
-
-}  // namespace
 
 bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const GrowthModel& model,
                              const SubStep& part) {
@@ -64,7 +56,8 @@ std::vector<FineFront::FrontPerturbation> FineFront::perturbations(const MarkerC
     const Vec3 off = (curve.markers[i].position - smooth[i]) / settings_.resolution;
     const FrontFrame frame = steps.frame(curve.markers[i].parameter);
     out.push_back(
-        {std::clamp(1 - kTension * off.dot(frame.e2), kLeastIntensity, kMostIntensity), off.dot(frame.e1)});
+        {std::clamp(1 - kShapeStiffness * off.dot(frame.e2), kLeastShapeFactor, kLargestShapeFactor),
+         off.dot(frame.e1)});
   }
   return out;
 }
@@ -74,7 +67,8 @@ std::vector<FineFront::FrontPerturbation> FineFront::perturbations(const MarkerC
 double FineFront::weaker_side(const Path& path, const Toughness& here, const GrowthModel& model) const {
   const Vec3 across = direction_at(-path.frame.e2, path.frame.e1, path.angle);  // towards growing angles
   const auto fall = [&](const Toughness& at, double height) {
-    return -kDeflectionLength * settings_.resolution / at.value * at.gradient.dot(across) - kHeight * height;
+    return -kDeflectionLength * settings_.resolution / at.value * at.gradient.dot(across) -
+           kHeightFall * height;
   };
   const double begin = fall(here, path.height);
   const double full = model.law->deflection(begin, path.intensity, here.value);

@@ -5,17 +5,11 @@
 #include <unordered_map>
 
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kSlide = 0.25;  ///< share of the way to the middle of its neighbours a coarse node slides …
-constexpr double kSlideFrom = 0.2;  ///< … where its two edges differ by more than this share of their sum
-
-constexpr double kMostOffset = 0.5;  ///< of a coarse edge: a marker from the coarse node attached to it
-
-constexpr double kTie = 1e-6;  ///< of the arc: markers equally near
 
 std::unordered_map<NodeId, std::size_t> places(const std::vector<NodeId>& coarse) {
   std::unordered_map<NodeId, std::size_t> place;
@@ -121,7 +115,8 @@ void reattach_nodes(MarkerCurve& curve, const std::vector<NodeId>& coarse,
     const std::size_t other =
         arc > 0 ? next_index(k, coarse.size(), curve.closed) : previous_index(k, coarse.size(), curve.closed);
     const double edge = (positions[coarse[other]] - x).norm();
-    curve.markers[i].offset = end || !(edge > 0) ? 0.0 : std::clamp(arc / edge, -kMostOffset, kMostOffset);
+    curve.markers[i].offset =
+        end || !(edge > 0) ? 0.0 : std::clamp(arc / edge, -kMarkerOffset, kMarkerOffset);
   }
 }
 
@@ -149,7 +144,7 @@ std::size_t marker_between(const MarkerCurve& curve, std::size_t a, std::size_t 
     if (i == b && !ends) break;
     const double off = std::abs(arc - s * total);
     const bool tie =
-        std::abs(off - least) <= kTie * total;  // the same choice whichever way the front is walked
+        std::abs(off - least) <= kEqualArc * total;  // the same choice whichever way the front is walked
     if (tie ? curve.markers[i].node < curve.markers[best].node : off < least) {
       least = off;
       best = i;

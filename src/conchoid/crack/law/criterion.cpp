@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {

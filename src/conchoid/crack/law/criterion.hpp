@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 
@@ -36,12 +34,6 @@ enum class RayleighFormula { exact, published };
 /// Rayleigh wave speed [m/s]. @param density [kg/m³], > 0
 double rayleigh_speed(const ElasticConstants& m, double density,
                       RayleighFormula formula = RayleighFormula::exact);
-
-/// Slowest motion of a point that moves at all, as a share of c_R.
-inline constexpr double kLeastSpeedFraction = 0.1;
-
-/// × r̄: length over which a change of toughness deflects the crack.
-inline constexpr double kDeflectionLength = 0.5 / std::numbers::pi;
 
 /// Deflection of a front point towards falling toughness (after Hahn & Wojtan 2015): within the angles
 /// at which the hoop intensity, taken as K_eff cos³(δ/2) around the hoop direction, still reaches K_c, by the
