@@ -135,8 +135,8 @@ TEST(FineFront, StopsJustBehindTheFaceOfAnotherCrack) {
   EXPECT_GT(farthest, 1);
   EXPECT_LT(farthest, 1 + kSpacing);
   EXPECT_LT(back, -1.2);  // away from the wall it has grown on
-  EXPECT_FALSE(cracks.fine.stopped_riders().empty());
-  for (NodeId n : cracks.fine.stopped_riders())
+  EXPECT_FALSE(cracks.fine.stopped_nodes().empty());
+  for (NodeId n : cracks.fine.stopped_nodes())
     EXPECT_EQ(cracks.sheet.state[n], FrontState::arrested);
 }
 

@@ -90,7 +90,7 @@ std::size_t marker_count(const FineFront& fine) {
   return count;
 }
 
-/// Every coarse front node lies exactly on the marker it rides on.
+/// Every coarse front node lies exactly on the marker it is attached to.
 void expect_agreement(const Growth& growth) {
   ASSERT_EQ(growth.fine.curves().size(), growth.sheet.fronts.size());
   for (std::size_t f = 0; f < growth.sheet.fronts.size(); ++f) {

@@ -105,5 +105,5 @@ TEST(HoopStressLaw, IsTheCriterionWithClosedFacesOrCompression) {
        {static_cast<const GrowthLaw*>(&closed), static_cast<const GrowthLaw*>(&published)})
     EXPECT_EQ(law->drive({1.5e6, 0, 0}), 1.5e6);  // what pure opening drives is K_I itself
   EXPECT_EQ(closed.length(2e6, 1e6, 0.1), advance_length(2e6, 1e6, 0.1));
-  EXPECT_EQ(closed.deflection(0.3, 2e6, 1e6), toughness_turn(0.3, 2e6, 1e6));
+  EXPECT_EQ(closed.deflection(0.3, 2e6, 1e6), toughness_deflection(0.3, 2e6, 1e6));
 }

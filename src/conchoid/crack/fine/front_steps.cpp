@@ -94,7 +94,7 @@ double FrontSteps::intensity(double parameter) const {
 double FrontSteps::length(double parameter, const GrowthLaw& law, double toughness, double resolution) const {
   const auto [a, b, s] = place(parameter);
   const auto of = [&](const FrontStep& step) {
-    return std::min(step.most, law.length(step.intensity, toughness, resolution));
+    return std::min(step.limit, law.length(step.intensity, toughness, resolution));
   };
   return (1 - s) * of(steps_[a]) + s * of(steps_[b]);
 }

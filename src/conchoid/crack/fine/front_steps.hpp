@@ -16,7 +16,7 @@ struct FrontStep {
   double angle = 0;  ///< θ from e2 towards e1 [rad], GrowthLaw::direction()
   double intensity =
       0;  ///< K_eff [Pa·√m], GrowthLaw::drive(); against the toughness it gives the length; 0: stays
-  double most = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
+  double limit = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
 };
 
 /// Steps for all nodes that move: those given, and for nodes outside of the body next to one of them the mean

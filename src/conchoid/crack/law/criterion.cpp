@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {
@@ -65,7 +67,7 @@ double rayleigh_speed(const ElasticConstants& m, double density, RayleighFormula
   return shear_speed * std::sqrt(0.5 * (low + high));
 }
 
-double toughness_turn(double fall, double effective_intensity, double toughness) {
+double toughness_deflection(double fall, double effective_intensity, double toughness) {
   if (fall == 0 || !(effective_intensity > toughness)) return 0;
   const double widest =
       std::min(2 * std::acos(std::cbrt(toughness / effective_intensity)), std::acos(1.0 / 3));

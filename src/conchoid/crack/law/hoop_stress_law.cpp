@@ -17,7 +17,7 @@ double HoopStressLaw::length(double drive, double toughness, double resolution) 
 }
 
 double HoopStressLaw::deflection(double fall, double drive, double toughness) const {
-  return toughness_turn(fall, drive, toughness);
+  return toughness_deflection(fall, drive, toughness);
 }
 
 /// Closed faces are seen to by effective_intensity() and kink_angle() themselves.

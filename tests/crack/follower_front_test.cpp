@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEdge = 0.2, kToughness = 1e6;
 
-/// A ring of the given number of markers around the unit circle; every `per`-th carries a coarse node.
+/// A ring of the given number of markers around the unit circle; every `per`-th has a coarse node attached.
 MarkerCurve ring(int count, int per) {
   MarkerCurve curve;
   curve.closed = true;
@@ -61,20 +61,21 @@ Toughness homogeneous(const Vec3&) {
   return {kToughness, Vec3::Zero()};
 }
 
-/// A disc that grows and twists, with a led front or without.
+/// A disc that grows and twists, with a follower front or without.
 struct Growth {
   CrackSheet sheet;
   FineFront fine;
-  std::optional<FineFront> led;
+  std::optional<FineFront> follower;
 
-  explicit Growth(std::optional<double> led_spacing)
+  explicit Growth(std::optional<double> follower_spacing)
       : sheet([] {
           CrackSheet s;
           append_part(s, disc(0.6, 3));
           return s;
         }()),
         fine(sheet, {.resolution = kEdge, .spacing = kEdge / 10}) {
-    if (led_spacing) led.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *led_spacing});
+    if (follower_spacing)
+      follower.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *follower_spacing});
   }
 
   void frame(const ToughnessField& toughness) {
@@ -85,7 +86,7 @@ struct Growth {
       steps.push_back(
           {sheet.fronts[0].nodes[i], frames[i], 0.3 * x.y() + 0.1, (1.8 + 0.4 * x.x()) * kToughness});
     }
-    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, led ? &*led : nullptr);
+    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, follower ? &*follower : nullptr);
   }
 };
 
@@ -143,7 +144,7 @@ TEST(FrontTrack, AnOpenFrontEndsAtItsEnds) {
   EXPECT_EQ(track.at(-1, 0.5), positions[0]);
 }
 
-TEST(AttachedRiders, FollowNodesThatMovedAlongTheFront) {
+TEST(AttachedNodes, FollowNodesThatMovedAlongTheFront) {
   constexpr int kCount = 80, kPer = 10;
   MarkerCurve curve = ring(kCount, kPer);
   IdVector<NodeId, Vec3> nodes;
@@ -151,7 +152,7 @@ TEST(AttachedRiders, FollowNodesThatMovedAlongTheFront) {
     const double phi = 2 * std::numbers::pi * (k * kPer + (k % 2 ? 2.3 : -1.2)) / kCount;
     nodes.add(Vec3(1.02 * std::cos(phi), 1.02 * std::sin(phi), 0.01));
   }
-  attach_riders(curve, node_ids(8), nodes);
+  reattach_nodes(curve, node_ids(8), nodes);
   set_parameters(curve, node_ids(8));
   for (std::size_t i = 0; i < curve.size(); ++i) {
     const Marker& m = curve.markers[i];
@@ -169,7 +170,7 @@ TEST(AttachedRiders, FollowNodesThatMovedAlongTheFront) {
                              [](const Marker& a, const Marker& b) { return a.parameter < b.parameter; }));
 }
 
-TEST(LedFront, HasNoEffectOnTheCrack) {
+TEST(FollowerFront, HasNoEffectOnTheCrack) {
   for (const ToughnessField& field : {ToughnessField(homogeneous), ToughnessField(varied)}) {
     Growth alone(std::nullopt), with(kEdge / 25);
     for (int frame = 0; frame < 5; ++frame) {
@@ -183,17 +184,17 @@ TEST(LedFront, HasNoEffectOnTheCrack) {
   }
 }
 
-// Whatever its spacing: over many frames it stays with the front that leads it.
-TEST(LedFront, StaysWithItsLeader) {
+// Whatever its spacing: over many frames it stays with the front it follows.
+TEST(FollowerFront, StaysWithTheFrontItFollows) {
   for (const double share : {0.25, 0.2, 0.05, 0.025})
     for (const bool structure : {false, true}) {
       Growth growth(share * kEdge);
       for (int frame = 0; frame < 7; ++frame)
         growth.frame(structure ? ToughnessField(varied) : ToughnessField(homogeneous));
-      const Apart off = apart(growth.led->curves()[0], growth.fine.curves()[0]);
+      const Apart off = apart(growth.follower->curves()[0], growth.fine.curves()[0]);
       EXPECT_LT(off.mean, 0.01 * kEdge) << share;
       EXPECT_LT(off.largest, 0.04 * kEdge) << share;
-      const MarkerCurve& curve = growth.led->curves()[0];
+      const MarkerCurve& curve = growth.follower->curves()[0];
       const double h = std::min(share, 0.25) * kEdge;
       for (std::size_t i = 0; i < curve.size(); ++i)
         EXPECT_LT(curve.spacing(i), 1.6 * h);

@@ -1,13 +1,12 @@
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 
 #include <algorithm>
 #include <limits>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 namespace {
-
-constexpr double kLeastCosine = 0.05;  ///< of a triangle's normal to those of its nodes
-constexpr double kFold = 1e9;          ///< badness of a fold: more than that of any number of slivers
 
 using Corners = std::array<NodeId, 3>;
 
@@ -18,11 +17,11 @@ bool flat(const Corners& t) {
 /// Sum of the squared edges over twice the area: 2√3 for an equilateral triangle.
 double badness(const IdVector<NodeId, Vec3>& x, const IdVector<NodeId, Vec3>& normals, const Corners& t) {
   if (flat(t)) return 0;
-  if (folds(x, normals, t)) return kFold;
+  if (folds(x, normals, t)) return kFoldBadness;
   Corners c = t;
   std::sort(c.begin(), c.end());  // the same bits whichever way round
   const Vec3 u = x[c[1]] - x[c[0]], v = x[c[2]] - x[c[0]];
-  return std::min(kFold / 2,
+  return std::min(kFoldBadness / 2,
                   (u.squaredNorm() + v.squaredNorm() + (v - u).squaredNorm()) / cross(u, v).norm());
 }
 
@@ -31,7 +30,7 @@ double badness(const IdVector<NodeId, Vec3>& x, const IdVector<NodeId, Vec3>& no
 bool folds(const IdVector<NodeId, Vec3>& positions, const IdVector<NodeId, Vec3>& normals, const Corners& t) {
   const Vec3 twice = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
   const Vec3 normal = normals[t[0]] + normals[t[1]] + normals[t[2]];
-  return twice.dot(normal) <= kLeastCosine * twice.norm() * normal.norm();
+  return twice.dot(normal) <= kFoldCosine * twice.norm() * normal.norm();
 }
 
 std::vector<Corners> triangles_between(const IdVector<NodeId, Vec3>& positions,
