@@ -250,10 +250,10 @@ std::vector<FrontStep> FrameLoop::record_and_step(int frame, const std::vector<F
     }
     if (!o.in_range && !warned_) {
       warned_ = true;
-      result.document.warnings.push_back(
-          fmt::format("frame {}: the {} is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
-                      "K_III = {:.3g} Pa√m); train it on a database that covers such loads",
-                      frame, options_.method, o.intensity[0], o.intensity[1], o.intensity[2]));
+      result.document.warnings.push_back(fmt::format(
+          "frame {}: the regressor is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
+          "K_III = {:.3g} Pa√m); train it on a database that covers such loads",
+          frame, o.intensity[0], o.intensity[1], o.intensity[2]));
       warning(result.document.warnings.back());
     }
   }
