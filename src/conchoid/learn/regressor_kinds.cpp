@@ -7,6 +7,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/ridge.hpp"
 
 namespace conchoid {
 namespace {
@@ -45,6 +46,7 @@ void check_options(const RegressorKind& kind, const TrainingSettings& settings) 
 const std::vector<RegressorKind>& regressor_kinds() {
   static const std::vector<RegressorKind> kinds = {
       forest_kind(),
+      ridge_kind(),
   };
   return kinds;
 }

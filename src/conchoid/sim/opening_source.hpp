@@ -23,7 +23,7 @@ struct FrontOpening {
   Vec3 intensity = Vec3::Zero();       ///< K that moves the front [Pa√m]
   Vec3 node_intensity = Vec3::Zero();  ///< K from this opening alone (S3): what features are made of [Pa√m]
   bool in_range = true;                ///< false: a predictor was asked beyond its training
-  bool known = true;                   ///< false: no K of its own
+  bool known = true;                   ///< false: nothing tells K here, which is zero; the point stays
 };
 
 /// The socket: where the crack opening comes from.
@@ -81,7 +81,7 @@ class PredictedOpening : public OpeningSource {
 
 /// Where nothing can be solved any more, as a piece hangs by a ligament too thin for the elements: each point
 /// goes straight ahead with the K_eff that its correlation node (or itself, if it stayed) had when last
-/// solved. Points without one take the mean of the nearest on their front that have one.
+/// solved. Points without one take the mean of the nearest on their connected front that have one (fill_gaps).
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
                                            const GrowthLaw& law);
 

@@ -1,3 +1,4 @@
+#include "conchoid/sim/front_gaps.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -9,28 +10,6 @@ Vec3 in_frame(const FrontFrame& f, const Vec3& v) {
 
 Vec3 in_world(const FrontFrame& f, const Vec3& v) {
   return v[0] * f.e1 + v[1] * f.e2 + v[2] * f.e3;
-}
-
-// Points without a prediction of their own (their correlation node was not on the front) take the mean K of
-// the nearest points of the same front that have one.
-void fill_gaps(const CrackState& crack, std::vector<FrontOpening>& out) {
-  const std::size_t n = out.size();
-  std::vector<char> known;
-  for (const FrontOpening& o : out)
-    known.push_back(o.known);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (known[i]) continue;
-    Vec3 sum = Vec3::Zero();
-    int count = 0;
-    for (std::size_t step = 1; step < n && count == 0; ++step)
-      for (std::size_t j : {i + step, i + n - step}) {
-        const std::size_t k = j % n;
-        if (!known[k] || crack.points[k].front != crack.points[i].front) continue;
-        sum += out[k].intensity;
-        ++count;
-      }
-    if (count > 0) out[i].intensity = out[i].node_intensity = sum / count;
-  }
 }
 
 }  // namespace
@@ -70,7 +49,7 @@ std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
     out = first_.open(crack);
   } else {
     out = predict(crack);
-    fill_gaps(crack, out);
+    fill_gaps(point_chains(crack), out);
   }
   history_.remember(crack, out);
   return out;
@@ -86,7 +65,7 @@ std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontH
     out[i].known = last != nullptr;
     if (last) out[i].intensity = out[i].node_intensity = law.drive(last->intensity) * Vec3::UnitX();
   }
-  fill_gaps(crack, out);
+  fill_gaps(point_chains(crack), out);
   return out;
 }
 
