@@ -13,6 +13,7 @@
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/frame_loop.hpp"
 #include "conchoid/sim/run_identity.hpp"
+#include "conchoid/surface/move_fragment.hpp"
 #include "conchoid/surface/open_slits.hpp"
 
 namespace conchoid {
@@ -64,8 +65,8 @@ std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   return sheets;
 }
 
-DressSettings dress_settings(const Scene& scene, const BodySetup& setup) {
-  DressSettings settings;
+AttributeSettings attribute_settings(const Scene& scene, const BodySetup& setup) {
+  AttributeSettings settings;
   settings.projection = scene.output.projection;
   settings.texture_size = scene.output.texture_size.value_or(std::cbrt(enclosed_volume(setup.detailed)));
   settings.crease_angle = scene.output.crease_angle * std::numbers::pi / 180;
@@ -112,7 +113,7 @@ void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResu
   result.document.contacts = fragment_contacts(result.fragments);
   for (Fragment& f : result.fragments)
     open_slits(f, kSlitWidth * setup.surface_edge);
-  dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
+  transfer_attributes(result.fragments, setup.detailed, setup.attributes, attribute_settings(scene, setup));
   for (Fragment& f : result.fragments) {
     move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);
     result.document.fragments.push_back(fragment_record(f));
