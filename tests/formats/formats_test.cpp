@@ -10,6 +10,7 @@
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "refusal.hpp"
 #include "temporary_folder.hpp"
 
 namespace conchoid {
@@ -19,13 +20,8 @@ namespace fs = std::filesystem;
 
 class MeshFiles : public ::testing::Test {
  protected:
-  std::string message_of(const fs::path& path) const {
-    try {
-      read_mesh(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+  static std::string message_of(const fs::path& path) {
+    return test::refusal([&] { read_mesh(path); });
   }
 
   test::TemporaryFolder folder_;

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "conchoid/core/error.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "refusal.hpp"
 #include "temporary_folder.hpp"
 
 using namespace conchoid;
@@ -17,12 +17,7 @@ TriMesh disc(int triangles) {
 }
 
 std::string refusal(const std::filesystem::path& path) {
-  try {
-    read_ply(path);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::refusal([&] { read_ply(path); });
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/formats/ply.hpp"
 #include "conchoid/surface/corner_normals.hpp"
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 #include "io/samples.hpp"
 
 #ifdef CONCHOID_HAVE_ASSIMP
@@ -78,7 +78,7 @@ std::vector<Fragment> painted_cube(double height) {
       paint.uv.push_back({Vec2(s / 12, 0), Vec2((s + 1) / 12, 0.25), Vec2(s / 12, 0.5)});
     }
     std::vector<Fragment> one{piece};
-    dress_fragments(one, piece.mesh, paint, {});
+    transfer_attributes(one, piece.mesh, paint, {});
     piece = one[0];
   }
   return pieces;

@@ -9,6 +9,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "io/samples.hpp"
+#include "refusal.hpp"
 
 using namespace conchoid;
 namespace fs = std::filesystem;
@@ -81,16 +82,6 @@ void write_whole_run(const fs::path& path) {
   folder.write_run_json(document_of(broken_cube(0.1)));
 }
 
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 }  // namespace
 
 TEST(FrontCsv, RoundTripIsExact) {
@@ -118,9 +109,9 @@ TEST(FrontCsv, DamageIsNamedWithItsLine) {
   write_front_csv(folder / "front.csv", two_rows());
   const std::string text = file_content(folder / "front.csv");
   std::ofstream(folder / "cut.csv") << text.substr(0, text.size() - 30);
-  EXPECT_NE(refusal([&] { read_front_csv(folder / "cut.csv"); }).find("line 3"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { read_front_csv(folder / "cut.csv"); }).find("line 3"), std::string::npos);
   std::ofstream(folder / "foreign.csv") << "a,b\n1,2\n";
-  EXPECT_NE(refusal([&] { read_front_csv(folder / "foreign.csv"); }).find("'frame' is missing"),
+  EXPECT_NE(test::refusal([&] { read_front_csv(folder / "foreign.csv"); }).find("'frame' is missing"),
             std::string::npos);
 }
 
@@ -176,11 +167,12 @@ TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
 
   fs::create_directory(scratch / "thesis");
   std::ofstream(scratch / "thesis/chapter.tex") << "x";
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "thesis"); }).find("new folder"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "thesis"); }).find("new folder"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "thesis"), fs::directory_iterator()), 1);
   std::ofstream(scratch / "file") << "x";
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "file"); }).find("is a file"), std::string::npos);
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "file/below"); }).find("cannot be written"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "file"); }).find("is a file"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "file/below"); }).find("cannot be written"),
+            std::string::npos);
 }
 
 TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
@@ -199,13 +191,13 @@ TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
 
 TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
   const TemporaryFolder scratch;
-  EXPECT_NE(refusal([&] { read_run(scratch / "none"); }).find("not a folder"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { read_run(scratch / "none"); }).find("not a folder"), std::string::npos);
   for (const char* name : {"run.json", "crack.ply", "front.csv", "fragments/fragment_001.ply"}) {
     const fs::path path = scratch / "run";
     fs::remove_all(path);
     write_whole_run(path);
     fs::remove(path / name);
-    EXPECT_NE(refusal([&] { read_run(path); }).find(name), std::string::npos) << name;
+    EXPECT_NE(test::refusal([&] { read_run(path); }).find(name), std::string::npos) << name;
   }
   const fs::path path = scratch / "run";
   write_whole_run(path);
@@ -213,7 +205,7 @@ TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
        {"", "{", "[]", "{\"format\":\"other\"}", "{\"format\":\"conchoid-run\",\"version\":99}",
         "{\"format\":\"conchoid-run\",\"version\":1,\"frames\":\"many\"}"}) {
     std::ofstream(path / "run.json") << text;
-    EXPECT_NE(refusal([&] { read_run(path); }).find("run.json"), std::string::npos) << text;
+    EXPECT_NE(test::refusal([&] { read_run(path); }).find("run.json"), std::string::npos) << text;
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <numbers>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "conchoid/remesh/examine.hpp"
 #include "conchoid/remesh/voxel_surface.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "scans.hpp"
 
 namespace conchoid {
 namespace {
@@ -278,14 +278,15 @@ TEST(Repair, WhatCannotBeRepairedIsRefused) {
   EXPECT_THROW(repaired(sheet), ComputationError) << "a sheet bounds no volume";
 }
 
-TEST(Repair, TheArmadilloWithHolesIsMended) {
-  const std::filesystem::path path = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  TriMesh mesh = read_mesh(path);
+using RepairScan = test::ScanTest;
+
+TEST_P(RepairScan, WithHolesIsMended) {
+  TriMesh mesh = read_mesh(GetParam().file);
   const SurfaceReport good = examine(mesh);
   EXPECT_TRUE(good.usable());
   std::size_t t = 0;
-  std::erase_if(mesh.corners, [&](const auto&) { return t++ % 5000 < 3; });
+  const std::size_t between = mesh.triangle_count() / 20;
+  std::erase_if(mesh.corners, [&](const auto&) { return t++ % between < 3; });
   EXPECT_GT(examine(mesh).holes.size(), 10u);
   const double h = (good.box.high - good.box.low).maxCoeff() / 100;
   const Repair repair = repaired(mesh, h);
@@ -294,5 +295,7 @@ TEST(Repair, TheArmadilloWithHolesIsMended) {
   EXPECT_NEAR(repair.volume_after, good.volume, 0.02 * good.volume);
   EXPECT_LT(repair.moved, 1.5 * h);
 }
+
+INSTANTIATE_TEST_SUITE_P(Scans, RepairScan, testing::ValuesIn(test::scans()), test::scan_name);
 
 }  // namespace conchoid

@@ -9,7 +9,8 @@
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
+#include "conchoid/surface/move_fragment.hpp"
 #include "conchoid/surface/open_slits.hpp"
 #include "conchoid/surface/slit_faces.hpp"
 
@@ -55,8 +56,8 @@ std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
   return sheets;
 }
 
-DressSettings dress_settings(const OutputSpec& output, const PreparedBody& body) {
-  DressSettings settings;
+AttributeSettings attribute_settings(const OutputSpec& output, const PreparedBody& body) {
+  AttributeSettings settings;
   settings.projection = output.projection;
   settings.texture_size = output.texture_size.value_or(std::cbrt(enclosed_volume(body.detailed)));
   settings.crease_angle = output.crease_angle * std::numbers::pi / 180;
@@ -118,7 +119,7 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
     f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
     open_slits(f, kSlitWidth * body.surface_edge);
   }
-  dress_fragments(out.fragments, body.detailed, body.attributes, dress_settings(output, body));
+  transfer_attributes(out.fragments, body.detailed, body.attributes, attribute_settings(output, body));
   for (Fragment& f : out.fragments)
     move_fragment(f, body.origin, body.detailed, body.scene_positions);
   for (Vec3& x : out.crack.positions)

@@ -27,7 +27,7 @@ struct Fragment {
   Vec3 center_of_mass = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass [kg m²]
   bool watertight = false;
-  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before dress_fragments()
+  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before transfer_attributes()
   UnfinishedCracks unfinished = {};  ///< empty in pieces read from files
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "conchoid/surface/fragments.hpp"
 
 namespace conchoid {
@@ -12,7 +10,7 @@ enum class Projection {
   planar  ///< each piece along the one direction that its fracture faces look in most
 };
 
-struct DressSettings {
+struct AttributeSettings {
   Projection projection = Projection::box;
   double texture_size = 1;    ///< length that one unit of u or v covers [m]
   double crease_angle = 0.6;  ///< normals are smoothed over edges that bend less [rad]
@@ -25,12 +23,7 @@ struct DressSettings {
 /// fracture faces, one material "original". Fracture faces get smooth normals that never mix with those of
 /// original faces, projected texture coordinates and the last material, "fracture".
 /// @param surface  that the fragments were cut from, in their coordinates; attributes: of it
-void dress_fragments(std::vector<Fragment>& fragments, const TriMesh& surface,
-                     const SurfaceAttributes& attributes, const DressSettings& settings);
-
-/// Moves a piece by `shift`; those of its nodes that are nodes of the surface it was cut from go exactly
-/// where `positions` says instead: no bit of the input is lost to a detour through other coordinates.
-void move_fragment(Fragment& fragment, const Vec3& shift, const TriMesh& surface,
-                   const IdVector<NodeId, Vec3>& positions);
+void transfer_attributes(std::vector<Fragment>& fragments, const TriMesh& surface,
+                         const SurfaceAttributes& attributes, const AttributeSettings& settings);
 
 }  // namespace conchoid

@@ -1,4 +1,4 @@
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "conchoid/surface/corner_normals.hpp"
+#include "conchoid/surface/move_fragment.hpp"
 #include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
@@ -55,7 +56,7 @@ struct Broken {
   std::vector<Fragment> pieces;
 };
 
-Broken broken_cube(const DressSettings& settings) {
+Broken broken_cube(const AttributeSettings& settings) {
   Broken b;
   b.body = cube(4);
   b.paint = painted(b.body);
@@ -65,11 +66,11 @@ Broken broken_cube(const DressSettings& settings) {
   const TriMesh wall =
       sheet(-0.9, 0.9, -0.9, 0.9, 5, 5, [](double u, double v) { return Vec3(0.07 + 0.1 * u, u, v); });
   b.pieces = cut_into_fragments(b.body, {wave, wall}, {});
-  dress_fragments(b.pieces, b.body, b.paint, settings);
+  transfer_attributes(b.pieces, b.body, b.paint, settings);
   return b;
 }
 
-TEST(DressFragments, OriginalFacesKeepChartsMaterialsAndNormals) {
+TEST(FragmentAttributes, OriginalFacesKeepChartsMaterialsAndNormals) {
   const Broken b = broken_cube({});
   ASSERT_EQ(b.pieces.size(), 4u);
   std::size_t kept = 0, made = 0;
@@ -104,7 +105,7 @@ TEST(DressFragments, OriginalFacesKeepChartsMaterialsAndNormals) {
   EXPECT_GT(made, 500u);
 }
 
-TEST(DressFragments, BothSidesOfABreakCarryTheSameTexture) {
+TEST(FragmentAttributes, BothSidesOfABreakCarryTheSameTexture) {
   const Broken b = broken_cube({.texture_size = 0.5});
   // the wave looks along z everywhere, the wall along x, from both sides
   for (const Fragment& f : b.pieces)
@@ -117,12 +118,12 @@ TEST(DressFragments, BothSidesOfABreakCarryTheSameTexture) {
         }
 }
 
-TEST(DressFragments, PlanarProjectionHasNoSeamsOnAPiece) {
+TEST(FragmentAttributes, PlanarProjectionHasNoSeamsOnAPiece) {
   const TriMesh body = cube(2);
   const TriMesh plane =
       sheet(-0.9, 0.9, -0.9, 0.9, 8, 8, [](double u, double v) { return Vec3(u, v, 0.5 * u + 0.1 * v); });
   auto pieces = cut_into_fragments(body, {plane}, {});
-  dress_fragments(pieces, body, {}, {.projection = Projection::planar, .texture_size = 2});
+  transfer_attributes(pieces, body, {}, {.projection = Projection::planar, .texture_size = 2});
   const double stretch = std::sqrt(1 + 0.25 + 0.01);
   for (const Fragment& f : pieces) {
     EXPECT_EQ(f.attributes.materials, (std::vector<std::string>{"original", "fracture"}));
@@ -139,12 +140,12 @@ TEST(DressFragments, PlanarProjectionHasNoSeamsOnAPiece) {
   }
 }
 
-TEST(DressFragments, FractureIsSmoothAndSharpAtItsRim) {
+TEST(FragmentAttributes, FractureIsSmoothAndSharpAtItsRim) {
   const TriMesh body = cube(2);
   const TriMesh bowl = sheet(-0.9, 0.9, -0.9, 0.9, 24, 24,
                              [](double u, double v) { return Vec3(u, v, 0.3 * (u * u + v * v)); });
   auto pieces = cut_into_fragments(body, {bowl}, {});
-  dress_fragments(pieces, body, {}, {});
+  transfer_attributes(pieces, body, {}, {});
   for (const Fragment& f : pieces)
     for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
@@ -175,7 +176,7 @@ TEST(NodeNormals, NodesOfTheBodyKeepItsNormalsAndTheBreakHasItsOwn) {
       body, {sheet(-1.3, 1.3, -1.3, 1.3, 30, 30, [&](double u, double v) { return Vec3(u, v, dip(u, v)); })},
       {});
   ASSERT_EQ(pieces.size(), 2u);
-  dress_fragments(pieces, body, given, {});
+  transfer_attributes(pieces, body, given, {});
   std::map<std::array<double, 3>, Vec3> of_body;
   for (const Vec3& x : body.positions)
     of_body[{x[0], x[1], x[2]}] = soft_normal(x);
@@ -207,7 +208,7 @@ TEST(NodeNormals, NodesOfTheBodyKeepItsNormalsAndTheBreakHasItsOwn) {
   EXPECT_GT(inside, 500u);
 }
 
-TEST(DressFragments, ABrokenPieceCanBeBrokenAgain) {
+TEST(FragmentAttributes, ABrokenPieceCanBeBrokenAgain) {
   const TriMesh body = cube(2);
   SurfaceAttributes first;
   first.materials = {"original", "fracture"};
@@ -215,7 +216,7 @@ TEST(DressFragments, ABrokenPieceCanBeBrokenAgain) {
     first.material.push_back(t % 2 == 0 ? 0 : 1);
   auto pieces = cut_into_fragments(
       body, {sheet(-0.9, 0.9, -0.9, 0.9, 3, 3, [](double u, double v) { return Vec3(u, v, 0.1); })}, {});
-  dress_fragments(pieces, body, first, {});
+  transfer_attributes(pieces, body, first, {});
   EXPECT_EQ(pieces[0].attributes.materials, (std::vector<std::string>{"original", "fracture", "fracture_2"}));
 }
 

@@ -1,4 +1,4 @@
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -64,15 +64,15 @@ std::string free_name(std::string name, const std::vector<std::string>& taken) {
   return name;
 }
 
-class Dresser {
+class AttributeTransfer {
  public:
-  Dresser(const TriMesh& surface, const SurfaceAttributes& given, const DressSettings& settings)
+  AttributeTransfer(const TriMesh& surface, const SurfaceAttributes& given, const AttributeSettings& settings)
       : surface_(surface), given_(given), settings_(settings) {
     materials_ = given.material.empty() ? std::vector<std::string>{"original"} : given.materials;
     materials_.push_back(free_name("fracture", materials_));
   }
 
-  void dress(Fragment& f) const {
+  void fill(Fragment& f) const {
     SurfaceAttributes& out = f.attributes;
     out = {};
     out.materials = materials_;
@@ -119,51 +119,19 @@ class Dresser {
 
   const TriMesh& surface_;
   const SurfaceAttributes& given_;
-  const DressSettings& settings_;
+  const AttributeSettings& settings_;
   std::vector<std::string> materials_;
 };
 
 }  // namespace
 
-void dress_fragments(std::vector<Fragment>& fragments, const TriMesh& surface,
-                     const SurfaceAttributes& attributes, const DressSettings& settings) {
-  const Dresser dresser(surface, attributes, settings);
+void transfer_attributes(std::vector<Fragment>& fragments, const TriMesh& surface,
+                         const SurfaceAttributes& attributes, const AttributeSettings& settings) {
+  const AttributeTransfer transfer(surface, attributes, settings);
   parallel_for(fragments.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      dresser.dress(fragments[i]);
+      transfer.fill(fragments[i]);
   });
-}
-
-namespace {
-
-// @param face  of the piece's mesh, per triangle of `mesh`
-template <class FaceOf>
-void move_mesh(TriMesh& mesh, const Fragment& fragment, const FaceOf& face, const Vec3& shift,
-               const TriMesh& surface, const IdVector<NodeId, Vec3>& positions) {
-  IdVector<NodeId, NodeId> own(mesh.node_count());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (fragment.face_kind[face(t)] != FaceKind::original) continue;
-    for (const NodeId node : mesh.corners[TriId(t)])
-      for (const NodeId of_surface : surface.corners[fragment.source[face(t)]])
-        if (mesh.positions[node] == surface.positions[of_surface]) own[node] = of_surface;
-  }
-  for (std::size_t n = 0; n < mesh.node_count(); ++n)
-    mesh.positions[NodeId(n)] =
-        own[NodeId(n)].valid() ? positions[own[NodeId(n)]] : Vec3(mesh.positions[NodeId(n)] + shift);
-}
-
-}  // namespace
-
-void move_fragment(Fragment& fragment, const Vec3& shift, const TriMesh& surface,
-                   const IdVector<NodeId, Vec3>& positions) {
-  UnfinishedCracks& cracks = fragment.unfinished;
-  move_mesh(fragment.mesh, fragment, [](std::size_t t) { return t; }, shift, surface, positions);
-  move_mesh(cracks.solid, fragment, [&](std::size_t t) { return cracks.solid_face[t].index(); }, shift, surface,
-            positions);
-  for (TriMesh& sheet : cracks.sheets)
-    for (Vec3& x : sheet.positions)
-      x += shift;
-  fragment.center_of_mass += shift;
 }
 
 }  // namespace conchoid
