@@ -1,6 +1,6 @@
 // What the program does with signals, without a run to wait for.
 
-#include "conchoid/signals.hpp"
+#include "signals.hpp"
 
 #include <gtest/gtest.h>
 
