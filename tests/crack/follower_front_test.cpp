@@ -6,19 +6,17 @@
 #include <optional>
 #include <vector>
 
-#include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/fine/front_track.hpp"
 #include "conchoid/crack/fine/marker_curve.hpp"
 #include "crack_samples.hpp"
+#include "growth.hpp"
 
 // A fine front of another spacing that follows the one which moves the crack.
 using namespace conchoid;
 using namespace conchoid::testing;
 
 namespace {
-
-constexpr double kEdge = 0.2, kToughness = 1e6;
 
 /// A ring of the given number of markers around the unit circle; every `per`-th has a coarse node attached.
 MarkerCurve ring(int count, int per) {
@@ -57,36 +55,16 @@ Toughness varied(const Vec3& x) {
   return out;
 }
 
-Toughness homogeneous(const Vec3&) {
-  return {kToughness, Vec3::Zero()};
-}
-
 /// A disc that grows and twists, with a follower front or without.
-struct Growth {
-  CrackSheet sheet;
-  FineFront fine;
-  std::optional<FineFront> follower;
-
-  explicit Growth(std::optional<double> follower_spacing)
-      : sheet([] {
-          CrackSheet s;
-          append_part(s, disc(0.6, 3));
-          return s;
-        }()),
-        fine(sheet, {.resolution = kEdge, .spacing = kEdge / 10}) {
-    if (follower_spacing)
-      follower.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *follower_spacing});
-  }
+struct TwistingDisc : Growth {
+  explicit TwistingDisc(std::optional<double> follower_spacing) : Growth({disc(0.6, 3)}, follower_spacing) {}
 
   void frame(const ToughnessField& toughness) {
-    std::vector<FrontStep> steps;
-    const auto frames = front_frames(sheet, sheet.fronts[0]);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const Vec3& x = sheet.mesh.positions[sheet.fronts[0].nodes[i]];
-      steps.push_back(
-          {sheet.fronts[0].nodes[i], frames[i], 0.3 * x.y() + 0.1, (1.8 + 0.4 * x.x()) * kToughness});
-    }
-    advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge, follower ? &*follower : nullptr);
+    const auto& x = sheet.mesh.positions;
+    advance(steps_of(
+                sheet, [&](NodeId n) { return 0.3 * x[n].y() + 0.1; },
+                [&](NodeId n) { return (1.8 + 0.4 * x[n].x()) * kToughness; }),
+            toughness);
   }
 };
 
@@ -172,7 +150,7 @@ TEST(AttachedNodes, FollowNodesThatMovedAlongTheFront) {
 
 TEST(FollowerFront, HasNoEffectOnTheCrack) {
   for (const ToughnessField& field : {ToughnessField(homogeneous), ToughnessField(varied)}) {
-    Growth alone(std::nullopt), with(kEdge / 25);
+    TwistingDisc alone(std::nullopt), with(kEdge / 25);
     for (int frame = 0; frame < 5; ++frame) {
       alone.frame(field);
       with.frame(field);
@@ -188,7 +166,7 @@ TEST(FollowerFront, HasNoEffectOnTheCrack) {
 TEST(FollowerFront, StaysWithTheFrontItFollows) {
   for (const double share : {0.25, 0.2, 0.05, 0.025})
     for (const bool structure : {false, true}) {
-      Growth growth(share * kEdge);
+      TwistingDisc growth(share * kEdge);
       for (int frame = 0; frame < 7; ++frame)
         growth.frame(structure ? ToughnessField(varied) : ToughnessField(homogeneous));
       const Apart off = apart(growth.follower->curves()[0], growth.fine.curves()[0]);

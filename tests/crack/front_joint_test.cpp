@@ -10,50 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "conchoid/crack/closing/advance_fronts.hpp"
 #include "crack_samples.hpp"
+#include "growth.hpp"
 
 // Fronts that meet become one.
 using namespace conchoid;
 using namespace conchoid::testing;
 
 namespace {
-
-constexpr double kEdge = 0.2, kSpacing = 0.02, kToughness = 1e6;
-
-Toughness homogeneous(const Vec3&) {
-  return {kToughness, Vec3::Zero()};
-}
-
-struct Growth {
-  CrackSheet sheet;
-  FineFront fine;
-  std::optional<FineFront> follower;
-
-  explicit Growth(const std::vector<TriMesh>& parts, std::optional<double> follower_spacing = std::nullopt)
-      : sheet([&] {
-          CrackSheet s;
-          for (const TriMesh& part : parts)
-            append_part(s, part);
-          return s;
-        }()),
-        fine(sheet, {.resolution = kEdge, .spacing = kSpacing}) {
-    if (follower_spacing)
-      follower.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *follower_spacing});
-  }
-
-  /// Straight on by the given share of r̄.
-  void frame(double share) {
-    std::vector<FrontStep> steps;
-    for (const SheetFront& front : sheet.fronts) {
-      const auto frames = front_frames(sheet, front);
-      for (std::size_t i = 0; i < front.nodes.size(); ++i)
-        if (sheet.state[front.nodes[i]] == FrontState::active)
-          steps.push_back({front.nodes[i], frames[i], 0, kToughness / std::sqrt(1 - share)});
-    }
-    advance_fronts(sheet, fine, steps, {kLaw, homogeneous}, kEdge, follower ? &*follower : nullptr);
-  }
-};
 
 /// Every edge is walked once each way or lies on the boundary. @return number of boundary edges
 std::size_t boundary_edges(const TriMesh& mesh) {
@@ -114,7 +78,7 @@ TEST(FrontJoint, TwoDiscsInOnePlaneBecomeOneCrack) {
     double radius = 0.6;
     for (int frame = 0; frame < 9; ++frame) {
       SCOPED_TRACE(::testing::Message() << "shift " << shift << " frame " << frame);
-      growth.frame(0.6);
+      growth.straight_frame(0.6);
       radius += 0.6 * kEdge;
       expect_sound(growth);
     }
@@ -142,7 +106,7 @@ TEST(FrontJoint, CracksOfOppositeOrientationStopBeforeEachOther) {
     std::swap(c[1], c[2]);
   Growth growth({disc_at(0.6, 3, {-0.9, 0, 0}), turned});
   for (int frame = 0; frame < 5; ++frame)
-    growth.frame(0.6);
+    growth.straight_frame(0.6);
   EXPECT_EQ(growth.sheet.fronts.size(), 2u);
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   std::size_t arrested = 0;
@@ -182,7 +146,7 @@ TEST(FrontJoint, ASlotCloses) {
         growth.sheet.state[n] = FrontState::arrested;
     }
   for (int frame = 0; frame < 8 && growth.sheet.fronts.size() > 1; ++frame)
-    growth.frame(0.5);
+    growth.straight_frame(0.5);
   ASSERT_EQ(growth.sheet.fronts.size(), 1u);
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   EXPECT_EQ(boundary_edges(growth.fine.surface()), marker_count(growth.fine));

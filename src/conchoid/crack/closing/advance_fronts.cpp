@@ -9,6 +9,7 @@
 #include "conchoid/crack/closing/front_joint.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/invariants.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
@@ -145,6 +146,10 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   AdvanceResult result = advance(sheet, motions, target_edge, settings);
   fine.adopt(sheet, result);
   if (follower) follower->adopt(sheet, result);
+#ifndef NDEBUG
+  validate(sheet, fine);
+  if (follower) validate(sheet, *follower);
+#endif
   return result;
 }
 

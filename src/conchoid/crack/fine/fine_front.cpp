@@ -100,8 +100,11 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
 }  // namespace
 
 FineFront::FineFront(const CrackSheet& sheet, const FineFrontSettings& settings)
-    : settings_(settings), faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
+    : settings_(settings),
+      longest_spacing_(0),
+      faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
   settings_.spacing = std::min(settings.spacing, settings.resolution / 4);
+  longest_spacing_ = kLongestSpacing * settings_.spacing;
   append_parts(sheet);
 }
 
@@ -122,7 +125,10 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   };
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
     curves_.push_back(initial_curve(surface_, fine, sheet.fronts[f]));
-    curves_.back().part = part_of(curves_.back().markers.front().node);
+    const MarkerCurve& curve = curves_.back();
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      longest_spacing_ = std::max(longest_spacing_, curve.spacing(i));
+    curves_.back().part = part_of(curve.markers.front().node);
   }
   for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
     faces_.take(surface_, TriId(t), part_of(surface_.corners[TriId(t)][0]));

@@ -80,11 +80,16 @@ class FineFront {
   /// Leaves a last row of triangles at markers that are ahead of the sheet. At the end of a run.
   void finish();
 
+  /// As used: the spacing is r̄/4 at most.
+  const FineFrontSettings& settings() const { return settings_; }
   const TriMesh& surface() const { return surface_; }
   /// Frame of the sheet in which each fine triangle appeared.
   const IdVector<TriId, int>& triangle_birth() const { return birth_; }
   /// As CrackSheet::fronts; empty where the fine front has closed before the coarse one.
   const std::vector<MarkerCurve>& curves() const { return curves_; }
+  /// No two successive markers have left nodes farther apart than this [m]: what rows are divided to, or the
+  /// longest edge of an initial front.
+  double longest_spacing() const { return longest_spacing_; }
   /// Coarse nodes attached to a marker which has run into a face.
   std::vector<NodeId> stopped_nodes() const;
 
@@ -141,6 +146,7 @@ class FineFront {
   IdVector<TriId, int> birth_;
   std::vector<MarkerCurve> curves_;
   std::vector<FrontTrack> tracks_;  ///< per curve, of the last frame; empty where nothing varied
+  double longest_spacing_;
   FaceGrid faces_;
   std::size_t known_triangles_ = 0;  ///< of the sheet
   int next_part_ = 0;
