@@ -71,6 +71,13 @@ inline std::string cracked_cube_text(const std::string& fields, double crack, do
          "[run]\nmax_cracks = 0\n";
 }
 
+/// The cube pulled apart askew by its ends: a crack starts and cuts it in two.
+inline std::string pulled_cube_text() {
+  return "[body]\nmodel = 'cube'\n" + material_text() + resolution_text(0.1, 0.02) +
+         boundary_text("z+", "traction", {3e7, 1e7, 9e7}) +
+         boundary_text("z-", "traction", {-3e7, -1e7, -9e7}) + "[run]\ninertia_relief = true\n";
+}
+
 /// A rotation about no axis of note, orthogonal to the last bit or two.
 inline Mat3 arbitrary_rotation() {
   const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();

@@ -21,15 +21,6 @@ constexpr std::size_t header_size = magic_size + 4 + 4 + 8;
 
 constexpr const char* train_again = "train it again with `conchoid forest train`";
 
-json to_json(const MaterialRecord& m) {
-  return {{"youngs_modulus", m.youngs_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
-
 MaterialRecord material_from(const json& j) {
   return {j.at("youngs_modulus"), j.at("poisson_ratio"), j.at("density"),
           j.at("strength"),       j.at("toughness"),     j.at("compressive_factor")};
@@ -37,7 +28,7 @@ MaterialRecord material_from(const json& j) {
 
 json to_json(const Provenance& p) {
   return {{"models", p.models},
-          {"material", to_json(p.material)},
+          {"material", json::parse(json_text(p.material))},
           {"resolution", p.resolution},
           {"runs", p.runs},
           {"samples", p.samples},

@@ -20,15 +20,6 @@ json per_mode(const Vec3& v) {
   return {{"I", v[0]}, {"II", v[1]}, {"III", v[2]}};
 }
 
-json to_json(const MaterialRecord& m) {
-  return {{"youngs_modulus", m.youngs_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
-
 json to_json(const Accuracy& a) {
   return {{"rmse", per_mode(a.rmse)}, {"r2", per_mode(a.r2)}};
 }
@@ -101,7 +92,7 @@ std::string json_text(const DatabaseInfo& info) {
                {"samples", info.samples},
                {"features", info.features},
                {"feature_sets", info.feature_sets},
-               {"material", to_json(info.header.material)},
+               {"material", json::parse(json_text(info.header.material))},
                {"models", info.header.models},
                {"complete", info.complete},
                {"planned_runs", info.header.planned_runs},
@@ -154,7 +145,7 @@ std::string json_text(const Regressor& regressor) {
             {"feature_set", name(regressor.feature_set())},
             {"features", features},
             {"models", p.models},
-            {"material", to_json(p.material)},
+            {"material", json::parse(json_text(p.material))},
             {"resolution", p.resolution},
             {"runs", p.runs},
             {"samples", p.samples},
