@@ -42,8 +42,8 @@ struct RunResult {
 /// mostly because a piece hangs by a ligament too thin to resolve: what was computed is kept and a warning
 /// says so) or "interrupted" (Ctrl-C: what was computed is kept and written). Same scene, same bits: for
 /// every number of threads, with a folder or without, stopped and resumed or not. Throws InputError for an
-/// unknown method or a regressor that does not go with it, and when what is to be resumed belongs to another scene,
-/// method, regressor or version.
+/// unknown method or a regressor that does not go with it, and when what is to be resumed belongs to another
+/// scene, method, regressor or version.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 }  // namespace conchoid
