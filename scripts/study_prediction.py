@@ -3,7 +3,7 @@
 
   scripts/study_prediction.py CONCHOID DATABASE OUT [--scenes 30] [--slope 60] [--seed 2024]
 
-Trains one forest (50, 10) per feature set on DATABASE, draws loads as the database does but with another seed, and reports
+Trains one forest (50, 10) per feature set and two ridge regressions on DATABASE, draws loads as the database does but with another seed, and reports
   one-step accuracy (R² of Δu/r̄) on a second database of these loads, beside the steady baseline, and
   whole runs: distance between the final crack surface of each method and the one solved by boundary elements.
 """
@@ -16,7 +16,9 @@ import statistics
 import subprocess
 import sys
 
-SETS = ["paper-3", "paper-4", "paper-5", "dimensionless"]
+# name of the row: model and feature set
+MODELS = {name: ("forest", name) for name in ["paper-3", "paper-4", "paper-5", "dimensionless"]}
+MODELS |= {f"ridge, {name}": ("ridge", name) for name in ["paper-4", "dimensionless"]}
 SCENE = """[body]
 model = "cube"
 [material]
@@ -39,6 +41,10 @@ def report(program, *arguments):
     return json.loads(call(program, *arguments, "--json"))
 
 
+def trained_file(out, name):
+    return out / f"{'-'.join(MODELS[name])}.model"
+
+
 def draw_scene(generator, slope):
     alpha, beta = math.radians(generator.uniform(0, slope)), generator.uniform(0, 2 * math.pi)
     f = generator.uniform(0.8e8, 1.2e8)
@@ -49,16 +55,17 @@ def draw_scene(generator, slope):
 
 def whole_runs(program, out, scenes, slope, seed):
     generator = random.Random(seed)
-    rows = {name: [] for name in ["steady", *SETS]}
+    rows = {name: [] for name in ["steady", *MODELS]}
     for i in range(scenes):
         text, alpha = draw_scene(generator, slope)
         scene = out / f"scene_{i:02}.toml"
         scene.write_text(text)
         solved = report(program, "run", scene, "--out", out / f"{i:02}-bem")
         for name in rows:
-            method = ["--method", "steady"] if name == "steady" else ["--method", "forest", "--database", out / f"{name}.forest"]
-            predicted = report(program, "run", scene, *method, "--out", out / f"{i:02}-{name}")
-            c = report(program, "compare", out / f"{i:02}-bem", out / f"{i:02}-{name}")
+            method = ["steady"] if name == "steady" else [MODELS[name][0], "--database", trained_file(out, name)]
+            folder = out / f"{i:02}-{name.replace(', ', '-')}"
+            predicted = report(program, "run", scene, "--method", *method, "--out", folder)
+            c = report(program, "compare", out / f"{i:02}-bem", folder)
             rows[name].append((c["surface_mean"] / c["bbox_diagonal"], c["surface_p95"] / c["bbox_diagonal"],
                                c["largest_fragment_iou"] or 0, predicted["frames"], solved["frames"], alpha))
     return rows
@@ -83,12 +90,13 @@ def main():
         call(a.program, "database", "generate", spec, "--out", held_out)
 
     print("| features | R² I | R² II | R² III | RMSE I | RMSE II | RMSE III |\n|---|---|---|---|---|---|---|")
-    for name in SETS:
-        call(a.program, "forest", "train", a.database, "--features", name, "--out", a.out / f"{name}.forest")
-        e = report(a.program, "forest", "evaluate", a.out / f"{name}.forest", "--samples", held_out)
+    for position, (name, (model, features)) in enumerate(MODELS.items()):
+        file = trained_file(a.out, name)
+        call(a.program, "forest", "train", a.database, "--model", model, "--features", features, "--out", file)
+        e = report(a.program, "forest", "evaluate", file, "--samples", held_out)
         line = lambda n, r2, rmse: print(f"| {n} | " + " | ".join(f"{r2[m]:.3f}" for m in ("I", "II", "III")) + " | " +
                                          " | ".join(f"{rmse[m]:.3g}" for m in ("I", "II", "III")) + " |", flush=True)
-        if name == SETS[0]:
+        if position == 0:
             line("steady (no training)", e["baseline_steady"]["r2"], e["baseline_steady"]["rmse"])
         line(name, e["r2"], e["rmse"])
 

@@ -35,8 +35,8 @@ std::string report_text(const RunDocument& d) {
   return text + "\nhash " + d.hash;
 }
 
-/// The finished run of the same scene that the folder holds, if there is one. A regressor is not recorded well
-/// enough to know that it is the same: such runs are made again.
+/// The finished run of the same scene that the folder holds, if there is one. A regressor is not recorded
+/// well enough to know that it is the same: such runs are made again.
 std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& scene,
                                         const RunOptions& options) {
   const std::filesystem::path file = std::filesystem::path(command.out) / "run.json";

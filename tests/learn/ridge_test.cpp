@@ -26,7 +26,8 @@ double noise(std::mt19937_64& random) {
   return sum;
 }
 
-/// The synthetic samples with openings that follow from K, toughness fixed: Δu/r̄ = c + M K/√r̄ + q (K_I/√r̄)² + noise.
+/// The synthetic samples with openings that follow from K, the toughness being fixed:
+/// Δu/r̄ = c + M k + q k_I² + noise, k = K/√r̄.
 SampleSet with_law(SampleSet samples, double quadratic, double deviation = 0) {
   std::mt19937_64 random(7);
   Mat3 m;
@@ -120,7 +121,8 @@ TEST(Ridge, TheSpreadCoversWhatItHasNotSeen) {
 }
 
 TEST(Ridge, TheSpreadGrowsAwayFromTheTraining) {
-  const auto ridge = RidgeRegression::train(with_law(synthetic_runs(10, 1, 1), 0, 0.1), {.degree = 1, .lambda = {}});
+  const auto ridge =
+      RidgeRegression::train(with_law(synthetic_runs(10, 1, 1), 0, 0.1), {.degree = 1, .lambda = {}});
   FeatureMatrix rows = feature_matrix(synthetic_runs(1, 1, 1).subset({0}), FeatureSet::paper_4);
   const Prediction near = ridge.predict(rows.row(0));
   rows.values[0] *= 1000;

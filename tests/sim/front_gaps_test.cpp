@@ -105,8 +105,8 @@ TEST(FrontGaps, TwoCracksAreTwoRings) {
   }
 }
 
-/// The disc is wider than the cube and narrower than its diagonal: one front of the sheet, four pieces of it inside,
-/// one in each corner.
+/// The disc is wider than the cube and narrower than its diagonal: one front of the sheet, four pieces of it
+/// inside, one in each corner.
 CrackState crack_with_four_corners() {
   return crack_in_cube({disc({0, 0, 0.03}, 0.6)});
 }

@@ -99,8 +99,8 @@ TEST(Methods, SteadyPredictionBreaksTheCubeAndIsRepeatable) {
   EXPECT_EQ(run("steady").document.hash, result.document.hash);
 }
 
-// One run is far too little to learn from: what counts here is that the run starts as the solved one does, breaks
-// the cube and is repeatable.
+// One run is far too little to learn from: what counts here is that the run starts as the solved one does,
+// breaks the cube and is repeatable.
 TEST(Methods, RegressorsPredictFromTheSecondFrameOn) {
   ASSERT_GT(solved().samples.size(), 20u);
   for (const RegressorKind& kind : regressor_kinds()) {

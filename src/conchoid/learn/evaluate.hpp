@@ -45,8 +45,8 @@ struct Evaluation {
 Accuracy accuracy(const SampleSet& samples, const std::vector<Vec3>& openings);
 Score score(const OpeningPredictor& predictor, const SampleSet& samples);
 
-/// One-step accuracy of a regressor and of baselines on the same samples. Throws InputError if there are none, or
-/// if they lack what its feature set looks at.
+/// One-step accuracy of a regressor and of baselines on the same samples. Throws InputError if there are
+/// none, or if they lack what its feature set looks at.
 Evaluation evaluate(const Regressor& model, const SampleSet& samples,
                     const std::vector<const OpeningPredictor*>& baselines = {&steady_predictor()});
 

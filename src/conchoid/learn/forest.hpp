@@ -27,9 +27,9 @@ class RegressionForest : public Regressor {
  public:
   using Progress = TrainingProgress;
 
-  /// Throws InputError if there are no samples, a sample is not valid, the feature set looks at quantities that
-  /// nobody recorded, or a setting is out of its range. The numbers of runs and samples and the hash in the
-  /// provenance are filled in here.
+  /// Throws InputError if there are no samples, a sample is not valid, the feature set looks at quantities
+  /// that nobody recorded, or a setting is out of its range. The numbers of runs and samples and the hash in
+  /// the provenance are filled in here.
   /// @param progress  called after every tree; may throw (Interrupted) to stop
   static RegressionForest train(const SampleSet& samples, const ForestSettings& settings,
                                 Provenance provenance = {}, const Progress& progress = {});

@@ -56,12 +56,12 @@ struct Prediction {
 /// Called during training; may throw (Interrupted) to stop it.
 using TrainingProgress = std::function<void(int done, int total)>;
 
-/// A rule that was learned from samples: features of the frame before → label, modes I, II, III (features.hpp).
+/// A rule learned from samples: features of the frame before → label, modes I, II, III (features.hpp).
 ///
-/// This class computes features, brings labels back to openings and compares with the ranges of the training; a
-/// kind of regressor adds the map from features to standardised labels, and its bytes. Kinds are listed in
-/// regressor_kinds.hpp. Prediction is linear in the number of rows, and gives the same bits for every number of
-/// threads and every grouping of the rows.
+/// This class computes features, brings labels back to openings and compares with the ranges of the training;
+/// a kind of regressor adds the map from features to standardised labels, and its bytes. Kinds are listed in
+/// regressor_kinds.hpp. Prediction is linear in the number of rows, and gives the same bits for every number
+/// of threads and every grouping of the rows.
 class Regressor : public OpeningPredictor {
  public:
   /// Name in the list of kinds: "forest", "ridge".
@@ -108,8 +108,8 @@ class Regressor : public OpeningPredictor {
   TrainingRecord record_;
 };
 
-/// Reads a regressor of whatever kind: the first bytes of the file say which. Throws InputError that names the
-/// file and the remedy if it is truncated, corrupt, foreign or of a newer version.
+/// Reads a regressor of whatever kind: the first bytes of the file say which. Throws InputError that names
+/// the file and the remedy if it is truncated, corrupt, foreign or of a newer version.
 std::unique_ptr<Regressor> load_regressor(const std::filesystem::path& file);
 
 }  // namespace conchoid

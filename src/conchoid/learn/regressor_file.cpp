@@ -1,7 +1,7 @@
 // File of a regressor, little-endian throughout:
 //   magic of its kind (8 bytes) · version u32 · byte-order mark u32 · length of the rest without checksum u64
-//   description (JSON text: settings, provenance, feature names, ranges, label scales) · what the kind's reader takes
-//   xxHash64 of all bytes before it u64
+//   description (JSON text: settings, provenance, feature names, ranges, label scales)
+//   what the reader of the kind takes · xxHash64 of all bytes before it u64
 #include "conchoid/learn/regressor_file.hpp"
 
 #include <algorithm>

@@ -20,14 +20,14 @@ struct RidgeSettings {
   std::optional<double> lambda;  ///< λ, 1e-12 … 1e6; none: the one that predicts left-out runs best
 };
 
-/// Ridge regression (Hoerl & Kennard, Technometrics 1970), one per fracture mode. With standardised terms z of the
-/// features (term_basis.hpp), standardised labels y and n samples, β minimises
+/// Ridge regression (Hoerl & Kennard, Technometrics 1970), one per fracture mode. With standardised terms z
+/// of the features (term_basis.hpp), standardised labels y and n samples, β minimises
 ///   (1/n) Σ (y − zᵀβ)² + λ |β|²        so  A β = (1/n) Σ z y,   A = (1/n) Σ z zᵀ + λ 1
 /// Spread, with the residual deviation s of the training and the leverage of the row:
 ///   s √(1 + 1/n + zᵀA⁻¹z / n),   s² = Σ (y − zᵀβ)² / (n − 1 − tr(1 − λA⁻¹))
-/// Nothing depends on the units of the features. λ is one for the three modes: unless it is given, of the powers of ten
-/// 1e-8 … 1 that with the least error on groups of whole runs left out in turn (every run, or 16 groups if there are
-/// more); 1e-6 where there is one run only.
+/// Nothing depends on the units of the features. One λ serves the three modes. Unless it is given, it is the
+/// power of ten from 1e-8 to 1 with the least error on runs left out in turn (in 16 groups if there are more);
+/// 1e-6 where there is one run only.
 class RidgeRegression : public Regressor {
  public:
   /// Throws InputError as prepare_training does, or if a setting is out of its range.

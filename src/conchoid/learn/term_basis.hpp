@@ -8,9 +8,10 @@
 
 namespace conchoid {
 
-/// Terms of a polynomial in features x: of degree 1 the standardised features (x − mean)/deviation themselves, of
-/// degree 2 also the products of any two of them, squares included. Every term is brought to zero mean and unit
-/// deviation over the rows it was made from. What does not vary there gives a term of zero.
+/// Terms of a polynomial in features x: of degree 1 the standardised features (x − mean)/deviation
+/// themselves, of degree 2 also the products of any two of them, squares included. Every term is brought to
+/// zero mean and unit deviation over the rows it was made from. What does not vary there gives a term of
+/// zero.
 class TermBasis {
  public:
   TermBasis() = default;

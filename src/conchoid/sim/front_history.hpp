@@ -33,7 +33,8 @@ class FrontHistory {
     int seen;         ///< frame of the sheet
   };
   const Entry* find(NodeId node) const;
-  /// Remembers the points as they are now, but for those of which nothing is known. @param openings  in the order of crack.points
+  /// Remembers the points as they are now, but for those of which nothing is known.
+  /// @param openings  in the order of crack.points
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings);
 
  private:

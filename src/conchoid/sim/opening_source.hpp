@@ -81,7 +81,8 @@ class PredictedOpening : public OpeningSource {
 
 /// Where nothing can be solved any more, as a piece hangs by a ligament too thin for the elements: each point
 /// goes straight ahead with the K_eff that its correlation node (or itself, if it stayed) had when last
-/// solved. Points without one take the mean of the nearest on their connected front that have one (fill_gaps).
+/// solved. Points without one take the mean of the nearest on their connected front that have one
+/// (fill_gaps).
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
                                            const GrowthLaw& law);
 

@@ -41,7 +41,8 @@ struct RunResult {
 /// separated or the frame limit is reached; then cut the body. document.stop says which (io/outcome.hpp). Same
 /// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
 /// Throws InputError for an unknown method or a regressor that does not go with it, and when what is to be
-/// resumed belongs to another scene, method, regressor or version. For more than one load or one step at a time: Fracture (fracture.hpp), which this is a thin driver of.
+/// resumed belongs to another scene, method, regressor or version. For more than one load, or one step at a
+/// time: Fracture (fracture.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 /// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and
