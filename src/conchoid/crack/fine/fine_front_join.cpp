@@ -113,6 +113,87 @@ class Divider {
   std::map<Edge, NodeId> middle_;
 };
 
+/// The markers of the fronts that are joined, numbered one curve after the other, and how they are to follow
+/// each other.
+struct MarkerLinks {
+  std::vector<Marker> markers;
+  std::vector<FrontChain> chains;  ///< one, or two in the order of the fronts
+  std::vector<std::size_t> removed;
+  std::vector<std::pair<std::size_t, std::size_t>> links;
+
+  std::vector<NodeId> last_nodes(const std::vector<std::size_t>& numbers) const {
+    std::vector<NodeId> out;
+    for (const std::size_t i : numbers)
+      out.push_back(markers[i].node);
+    return out;
+  }
+
+  /// The front turns at a marker at the end of a stretch: it has no direction and is free again.
+  void restart(std::size_t i, NodeId coarse) {
+    markers[i].coarse = coarse;
+    markers[i].direction.setZero();
+    markers[i].arrested = markers[i].at_own_face = false;
+  }
+
+  /// Links two ends, with new markers at the nodes in between; ends that are one marker vanish.
+  void link(std::size_t from, std::size_t to, const std::vector<NodeId>& between, const TriMesh& surface) {
+    if (from == to) {
+      removed.push_back(from);
+      return;
+    }
+    for (std::size_t k = 1; k + 1 < between.size(); ++k) {
+      Marker& marker = markers.emplace_back();  // the front turns there: no direction yet
+      marker.node = between[k];
+      marker.position = surface.positions[between[k]];
+      links.emplace_back(from, markers.size() - 1);
+      from = markers.size() - 1;
+    }
+    links.emplace_back(from, to);
+  }
+};
+
+MarkerLinks numbered(const std::vector<MarkerCurve>& curves, const JoinedFronts& joined) {
+  MarkerLinks out;
+  for (const std::size_t f : std::set{joined.first, joined.second}) {
+    FrontChain& chain = out.chains.emplace_back();
+    chain.closed = curves[f].closed;
+    for (const Marker& marker : curves[f].markers) {
+      chain.nodes.push_back(out.markers.size());
+      out.markers.push_back(marker);
+    }
+  }
+  return out;
+}
+
+/// Numbers of the markers along a stretch of coarse nodes.
+std::vector<std::size_t> stretch(const CrackSheet& sheet, const MarkerCurve& curve, const FrontChain& chain,
+                                 const std::vector<NodeId>& nodes) {
+  const std::size_t from = marker_at(curve, nodes.front(), sheet.mesh.positions[nodes.front()]);
+  const std::size_t to = marker_at(curve, nodes.back(), sheet.mesh.positions[nodes.back()]);
+  return places_between(chain, from, to);
+}
+
+/// The markers along a coarse front: the first chain with a node of it attached; empty if there is none.
+MarkerCurve curve_along(const SheetFront& front, const std::vector<FrontChain>& chains,
+                        const std::vector<Marker>& markers) {
+  const auto on_front = [&](NodeId n) {
+    return std::find(front.nodes.begin(), front.nodes.end(), n) != front.nodes.end();
+  };
+  MarkerCurve curve;
+  curve.closed = front.closed;
+  for (const FrontChain& chain : chains)
+    if (std::any_of(chain.nodes.begin(), chain.nodes.end(), [&](std::size_t i) {
+          return markers[i].coarse.valid() && on_front(markers[i].coarse);
+        })) {
+      for (const std::size_t i : chain.nodes)
+        curve.markers.push_back(markers[i]);
+      break;
+    }
+  for (Marker& marker : curve.markers)  // of the other's nodes none may be attached here
+    if (marker.coarse.valid() && !on_front(marker.coarse)) marker.coarse = NodeId();
+  return curve;
+}
+
 }  // namespace
 
 /// Triangles from marker to marker, their long edges divided.
@@ -133,86 +214,32 @@ FineFront::JointEnds FineFront::fill_ligament(const std::vector<NodeId>& first,
 
 void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const JoinedFronts& joined) {
   const MarkerCurve first = curves_[joined.first], second = curves_[joined.second];
-  std::vector<Marker> markers;  // of both, numbered one after the other
-  std::vector<FrontChain> chains;
-  for (const std::size_t f : std::set{joined.first, joined.second}) {
-    FrontChain& chain = chains.emplace_back();
-    chain.closed = curves_[f].closed;
-    for (const Marker& marker : curves_[f].markers) {
-      chain.nodes.push_back(markers.size());
-      markers.push_back(marker);
-    }
-  }
-  const FrontChain& chain_of_first = chains[joined.first <= joined.second ? 0 : 1];
-  const FrontChain& chain_of_second = chains[joined.second <= joined.first ? 0 : 1];
-  const auto stretch = [&](const MarkerCurve& curve, const FrontChain& chain,
-                           const std::vector<NodeId>& nodes) {
-    const std::size_t from = marker_at(curve, nodes.front(), sheet.mesh.positions[nodes.front()]);
-    const std::size_t to = marker_at(curve, nodes.back(), sheet.mesh.positions[nodes.back()]);
-    return places_between(chain, from, to);
-  };
-  std::vector<std::size_t> removed;
-  std::vector<std::pair<std::size_t, std::size_t>> links;
-  const std::vector<std::size_t> a = stretch(first, chain_of_first, joint.first);
-  const std::vector<std::size_t> b = stretch(second, chain_of_second, joint.second);
+  MarkerLinks links = numbered(curves_, joined);
+  const std::vector<std::size_t> a =
+      stretch(sheet, first, links.chains[joined.first <= joined.second ? 0 : 1], joint.first);
+  const std::vector<std::size_t> b =
+      stretch(sheet, second, links.chains[joined.second <= joined.first ? 0 : 1], joint.second);
   if (a.size() > 1 && b.size() > 1) {
-    const auto nodes = [&](const std::vector<std::size_t>& numbers) {
-      std::vector<NodeId> out;
-      for (const std::size_t i : numbers)
-        out.push_back(markers[i].node);
-      return out;
-    };
-    const JointEnds ends = fill_ligament(nodes(a), nodes(b), first.part);
-    const auto link = [&](std::size_t from, std::size_t to, const std::vector<NodeId>& between) {
-      if (from == to) {
-        removed.push_back(from);
-        return;
-      }
-      for (std::size_t k = 1; k + 1 < between.size(); ++k) {
-        Marker& marker = markers.emplace_back();  // the front turns there: no direction yet
-        marker.node = between[k];
-        marker.position = surface_.positions[between[k]];
-        links.emplace_back(from, markers.size() - 1);
-        from = markers.size() - 1;
-      }
-      links.emplace_back(from, to);
-    };
-    for (const auto& [marker, node] :
-         {std::pair{a.front(), joint.first.front()}, std::pair{a.back(), joint.first.back()},
-          std::pair{b.front(), joint.second.front()}, std::pair{b.back(), joint.second.back()}}) {
-      markers[marker].coarse = node;
-      markers[marker].direction.setZero();
-      markers[marker].arrested = markers[marker].at_own_face = false;
-    }
-    link(a.front(), b.back(), ends.at_first);
-    link(b.front(), a.back(), ends.at_second);
+    const JointEnds ends = fill_ligament(links.last_nodes(a), links.last_nodes(b), first.part);
+    links.restart(a.front(), joint.first.front());
+    links.restart(a.back(), joint.first.back());
+    links.restart(b.front(), joint.second.front());
+    links.restart(b.back(), joint.second.back());
+    links.link(a.front(), b.back(), ends.at_first, surface_);
+    links.link(b.front(), a.back(), ends.at_second, surface_);
     for (const auto* run : {&a, &b})
-      removed.insert(removed.end(), run->begin() + 1, run->end() - 1);
+      links.removed.insert(links.removed.end(), run->begin() + 1, run->end() - 1);
   }
   const int part = std::min(first.part, second.part), gone = std::max(first.part, second.part);
   faces_.join(part, gone);
   std::vector<MarkerCurve> curves;
   for (std::size_t f = 0; f < curves_.size(); ++f)
     if (f != joined.first && f != joined.second) curves.push_back(std::move(curves_[f]));
-  const auto rest = relinked(chains, removed, links);
+  const auto rest = relinked(links.chains, links.removed, links.links);
   while (curves.size() < sheet.fronts.size()) {
-    const SheetFront& front = sheet.fronts[curves.size()];
-    MarkerCurve& curve = curves.emplace_back();
-    curve.closed = front.closed;
-    for (const FrontChain& chain : rest)
-      if (std::any_of(chain.nodes.begin(), chain.nodes.end(), [&](std::size_t i) {
-            return markers[i].coarse.valid() &&
-                   std::find(front.nodes.begin(), front.nodes.end(), markers[i].coarse) != front.nodes.end();
-          })) {
-        for (const std::size_t i : chain.nodes)
-          curve.markers.push_back(markers[i]);
-        break;
-      }
-    for (Marker& marker : curve.markers)  // of the other's nodes none may be attached here
-      if (marker.coarse.valid() &&
-          std::find(front.nodes.begin(), front.nodes.end(), marker.coarse) == front.nodes.end())
-        marker.coarse = NodeId();
+    MarkerCurve curve = curve_along(sheet.fronts[curves.size()], rest, links.markers);
     curve.part = part;
+    curves.push_back(std::move(curve));
   }
   for (MarkerCurve& curve : curves)
     if (curve.part == gone) curve.part = part;

@@ -15,8 +15,7 @@ enum class SifConvention { full_opening, half_opening };
 enum class SifMethod { one_point, two_point };
 
 /// Stress intensity factors from one opening sample (displacement correlation).
-/// K_I = μ√(2π) Δu_I / (4(1−ν)√r), likewise II; K_III = μ√(2π) Δu_III / (4√r)               docs/theory.md
-/// (S3)
+/// K_I = μ√(2π) Δu_I / (4(1−ν)√r), likewise II; K_III = μ√(2π) Δu_III / (4√r)      docs/theory.md (S3)
 /// @param opening  Δu = u⁺ − u⁻, the full opening [m], in the front frame (I along e1, II along e2, III along
 /// e3)
 /// @param r        distance from the front [m], > 0

@@ -39,8 +39,8 @@ double rayleigh_speed(const ElasticConstants& m, double density,
 /// at which the hoop intensity, taken as K_eff cos³(δ/2) around the hoop direction, still reaches K_c, by the
 /// share s/√(1+s²) of them, s the relative fall of K_c over r̄/2π across the direction (of a wave of
 /// wavelength r̄: its amplitude):
-///     δ = s/√(1+s²) · min(2 arccos (K_c/K_eff)^⅓, arccos ⅓),  s = −(r̄/2πK_c) ∂K_c/∂n      docs/theory.md
-///     (S8)
+///     δ = s/√(1+s²) · min(2 arccos (K_c/K_eff)^⅓, arccos ⅓),  s = −(r̄/2πK_c) ∂K_c/∂n
+/// docs/theory.md (S8)
 /// @param fall  s > 0: towards growing angles
 /// @return δ [rad], 0 for K_eff ≤ K_c
 double toughness_deflection(double fall, double effective_intensity, double toughness);
