@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "conchoid/bem/dense_solver.hpp"
+#include "conchoid/bem/iterative_solver.hpp"
 #include "conchoid/core/error.hpp"
 
 namespace conchoid {
@@ -11,6 +12,7 @@ namespace {
 const std::vector<std::pair<std::string, BodySolverFactory>>& solvers() {
   static const std::vector<std::pair<std::string, BodySolverFactory>> table{
       {"dense", make_dense_solver},
+      {"iterative", make_iterative_solver},
   };
   return table;
 }
