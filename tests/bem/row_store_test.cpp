@@ -75,7 +75,8 @@ TEST(RowStore, WhatIsRecalledIsWhatIsUsed) {
   const std::vector<Vec3> plain = openings(&store);
   for (auto& [name, rows] : store.rows)
     for (EnrichmentRows& r : rows)
-      r.load *= 2;
+      for (double& entry : r.sources.data)
+        entry *= 2;
   EXPECT_NE(openings(&store), plain);
 }
 

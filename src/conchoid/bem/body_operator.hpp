@@ -2,66 +2,70 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "conchoid/bem/body_load.hpp"
-#include "conchoid/bem/bordered_cholesky.hpp"
+#include "conchoid/bem/body_entries.hpp"
+#include "conchoid/bem/body_solver.hpp"
+#include "conchoid/bem/load_case.hpp"
+#include "conchoid/bem/load_columns.hpp"
 
 namespace conchoid {
 
 struct BemSettings {
   double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
+  std::string solver = "dense";        ///< one of body_solver_names()
 };
 
 /// An uncracked elastic body: surface, material, and which quantity is prescribed where. Its boundary element
 /// system is assembled and factored once, on construction; what is prescribed comes later, as load cases.
-/// Immutable: threads and any number of cracked bodies share one through shared_ptr<const BodyOperator>.
-///
-///   | V  −K | |q|   |f_D|     S = D + Kᵀ V⁻¹ K + Σ α r rᵀ,   S u = f_N − Kᵀ V⁻¹ f_D,   q = V⁻¹ (f_D + K u)
-///   | Kᵀ  D | |u| = |f_N|     r: rigid motions that nothing holds                     docs/theory.md (B1)
+///   | V  −K | |q|   |f_D|      q unknown tractions, u unknown displacements
+///   | Kᵀ  D | |u| = |f_N|                                                             docs/theory.md (B1)
+/// Immutable but for the columns of loads, which it keeps (LoadColumns): threads and any number of cracked
+/// bodies share one through shared_ptr<const BodyOperator>.
+/// Memory for n triangles, a share h of them held, with the dense solver: 9 n² (1 + h)² bytes for the factors
+/// (1,000 triangles: 9 … 36 MB), 28 n² more while they are made, and 36 n (1 + h) bytes per place that a load
+/// has touched.
 class BodyOperator {
  public:
-  /// @param surface  closed, outward; empty for an unbounded body
-  /// @param kinds    per triangle
-  /// Errors: InputError when there is not one kind per triangle; ComputationError when the system is
-  /// singular (the mesh has overlapping or nearly degenerate triangles).
+  /// @param surface   closed, outward; empty for an unbounded body
+  /// @param kinds     per triangle
+  /// @param expected  loads to come: their columns are made while the integrals of all pairs are at hand
+  /// Errors: InputError when there is not one kind per triangle, a load does not fit, or the solver's name is
+  /// not known; ComputationError when the system is singular (the mesh has overlapping or nearly degenerate
+  /// triangles).
   BodyOperator(TriMesh surface, std::vector<BoundaryKind> kinds, const ElasticConstants& m,
-               const BemSettings& settings = {});
+               const BemSettings& settings = {}, std::span<const LoadCase> expected = {});
 
-  const TriMesh& surface() const { return surface_; }
-  const std::vector<BoundaryKind>& kinds() const { return kinds_; }
-  const ElasticConstants& material() const { return m_; }
+  const TriMesh& surface() const { return discretisation_.surface; }
+  const std::vector<BoundaryKind>& kinds() const { return discretisation_.kinds; }
+  const ElasticConstants& material() const { return discretisation_.m; }
   const BemSettings& settings() const { return settings_; }
-  const PairIntegrator& integrator() const { return integrator_; }
-  const BodyBlocks& blocks() const { return body_; }
+  const BodyDiscretisation& discretisation() const { return discretisation_; }
+  const BodyEntries& entries() const { return entries_; }
+  const BodySolver& solver() const { return *solver_; }
 
-  /// Right-hand side of a load case. Errors: InputError when it does not fit (require_fitting_load).
-  BodyLoad load(const LoadCase& load) const;
-  std::vector<BodyLoad> loads(std::span<const LoadCase> loads) const;
+  /// Right-hand sides (f_D, f_N) of load cases, one after the other.
+  /// Errors: InputError when one does not fit (require_fitting_load).
+  std::vector<double> right_hand_sides(std::span<const LoadCase> loads) const;
+  /// The unknowns (q, u) of load cases, one after the other.
+  std::vector<double> solve(std::span<const LoadCase> loads) const;
 
-  /// V⁻¹ b in place for `count` vectors of tractions, each contiguous.
-  void solve_single_layer(double* b, std::size_t count = 1) const;
-  /// V⁻¹ K.
-  const DenseMatrix& VinvK() const { return VinvK_; }
-  /// The factor of S, to be bordered by the rows of cracks.
-  const BorderedCholesky& schur_factor() const { return S_; }
+  /// Memory of factors and load columns.
+  std::size_t bytes() const { return solver_->bytes() + columns_.bytes(); }
 
  private:
-  void factor();
-  void hold_rigid_motions(DenseMatrix& schur) const;
+  RigidMotions rigid_motions() const;
 
-  TriMesh surface_;
-  std::vector<BoundaryKind> kinds_;
-  ElasticConstants m_;
   BemSettings settings_;
-  PairIntegrator integrator_;
-  BodyBlocks body_;
-  BorderedCholesky V_, S_;
-  DenseMatrix VinvK_;
+  BodyDiscretisation discretisation_;
+  BodyEntries entries_;
+  std::unique_ptr<BodySolver> solver_;
+  mutable LoadColumns columns_;
 };
 
-/// An operator for the kinds that some boundary data have.
+/// An operator for the kinds that some boundary data have, with their values as the load to come.
 std::shared_ptr<const BodyOperator> make_body_operator(TriMesh surface, const BoundaryData& data,
                                                        const ElasticConstants& m,
                                                        const BemSettings& settings = {});

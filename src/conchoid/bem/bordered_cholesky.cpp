@@ -3,25 +3,13 @@
 #include <cblas.h>
 
 #include <algorithm>
-#include <cmath>
 
-extern "C" {
-void openblas_set_num_threads(int);
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
-             const int* ldb, int* info);
-}
+#include "conchoid/bem/blas.hpp"
+
+extern "C" void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda,
+                        double* b, const int* ldb, int* info);
 
 namespace conchoid {
-namespace {
-
-// One BLAS thread: more would round differently for different thread counts.
-void use_one_blas_thread() {
-  static const bool once = (openblas_set_num_threads(1), true);
-  (void)once;
-}
-
-}  // namespace
 
 void BorderedCholesky::reserve(std::size_t n) {
   if (n <= capacity_) return;
@@ -33,10 +21,6 @@ void BorderedCholesky::reserve(std::size_t n) {
   capacity_ = grown;
 }
 
-void BorderedCholesky::choose_scale(double first) {
-  scale_ = first > 0 && std::isfinite(first) ? std::ldexp(1.0, -std::ilogb(first)) : 1.0;
-}
-
 bool BorderedCholesky::append(const std::vector<double>& coupling, const std::vector<double>& diagonal) {
   use_one_blas_thread();
   std::size_t m = 0;
@@ -44,7 +28,7 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
     ++m;
   if (m == 0) return true;
   reserve(n_ + m);
-  if (n_ == 0) choose_scale(diagonal[0]);
+  if (n_ == 0) scale_ = unit_scale(diagonal[0]);
   const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
   double* border = factor_.data() + n_;  // rows n…n+m of the old columns
   double* corner = factor_.data() + n_ * capacity_ + n_;
@@ -59,9 +43,7 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
                 lead, border, lead);
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, n, -1.0, border, lead, 1.0, corner, lead);
   }
-  int info = 0;
-  dpotrf_("L", &k, corner, &lead, &info);
-  if (info != 0) return false;
+  if (!factor_in_place(corner, m, capacity_)) return false;
   n_ += m;
   return true;
 }

@@ -27,11 +27,8 @@ class BorderedCholesky {
  private:
   void reserve(std::size_t n);
 
-  void choose_scale(double first);
-
   std::size_t n_ = 0;
-  double scale_ = 1;  // of A: a power of two that brings its first entry to 1 … 2, so that √ sees the same
-                      // digits whatever the units
+  double scale_ = 1;            // of A: unit_scale of its first entry
   std::size_t capacity_ = 0;    // leading dimension
   std::vector<double> factor_;  // column-major, lower triangle
 };

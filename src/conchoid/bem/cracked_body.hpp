@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "conchoid/bem/body_operator.hpp"
+#include "conchoid/bem/contact.hpp"
+#include "conchoid/bem/crack_system.hpp"
 #include "conchoid/bem/interior_stress.hpp"
-#include "conchoid/elastic/constants.hpp"
 #include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
@@ -15,13 +17,6 @@ class RowStore;
 /// Stress [Pa] in the two faces of a crack; its traction part is the same in both.
 struct CrackFaceStress {
   Mat3 plus, minus;  ///< on the side the crack's normal points to, and on the other
-};
-
-/// What the last set_crack() had to do.
-struct AppendStatistics {
-  std::size_t functions = 0;   ///< enrichment functions in the system
-  std::size_t assembled = 0;   ///< of these, assembled anew
-  std::size_t refactored = 0;  ///< of these, eliminated anew
 };
 
 /// An elastic body with cracks under a load, by the symmetric Galerkin boundary element method
@@ -53,7 +48,11 @@ class CrackedBody {
   /// Replaces the load, on body and crack; call solve() before anything is read. Errors: InputError when it
   /// does not fit; the load is then as before.
   void set_load(LoadCase load);
+  /// Finds opening, displacement and traction. Says so on stderr when contact did not converge.
   void solve();
+  /// Openings of several loads on the crack as it stands, as set_load() and solve() would give them; the
+  /// body's own load and solution stay.
+  std::vector<IdVector<NodeId, Vec3>> openings(std::span<const LoadCase> loads);
 
   const BodyOperator& body() const;
   const LoadCase& load() const;
@@ -68,14 +67,17 @@ class CrackedBody {
   /// Stress [Pa] per surface triangle, from displacement gradient and traction; mean over its pieces where
   /// the crack cuts it.
   std::vector<Mat3> surface_stress() const;
-  /// Stress [Pa] at a point inside the body and off the crack.
-  Mat3 interior_stress(const Vec3& x) const;
+  /// Stress [Pa] at points inside the body and off the crack.
+  std::vector<Mat3> interior_stress(std::span<const Vec3> points) const;
+  Mat3 interior_stress(const Vec3& point) const { return interior_stress(std::span(&point, 1))[0]; }
   /// Stress in both faces of some triangles of the cut complex's sheet, at their centroids. Meant for
   /// triangles away from the front, where it is singular. docs/theory.md (T3)
   std::vector<CrackFaceStress> crack_face_stress(const std::vector<TriId>& pieces) const;
   const AppendStatistics& statistics() const;
-  /// ½ fᵀx [J]: half the work of the loads; the part due to the crack is the energy it releases under
-  /// constant load.
+  /// How the last solve() ended where faces touch.
+  const ContactReport& contact() const;
+  /// ½ fᵀx [J], up to a part that depends on the load alone: how it changes with the crack is the energy that
+  /// growth releases under constant load.
   double energy() const;
 
  private:
@@ -87,10 +89,5 @@ class CrackedBody {
 /// Operator and load of a body that is used once.
 CrackedBody make_cracked_body(TriMesh surface, const BoundaryData& data, const ElasticConstants& m,
                               AmbientField ambient = {}, const BemSettings& settings = {});
-
-/// A cut complex for a crack in an unbounded body: the sheet alone.
-CutComplex uncut_sheet(const TriMesh& sheet);
-/// A cut complex without a crack.
-CutComplex whole_surface(const TriMesh& surface);
 
 }  // namespace conchoid

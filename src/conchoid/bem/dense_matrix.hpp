@@ -22,9 +22,4 @@ struct DenseMatrix {
   }
 };
 
-DenseMatrix transposed(const DenseMatrix& a);
-
-/// y += Aᵀ B for A (k × m), B (k × n), y (m × n).
-void add_transposed_product(const DenseMatrix& a, const DenseMatrix& b, DenseMatrix& y);
-
 }  // namespace conchoid

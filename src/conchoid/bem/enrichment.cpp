@@ -221,4 +221,26 @@ EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
   return SpaceBuilder(cut, surface, kinds).build();
 }
 
+CutComplex uncut_sheet(const TriMesh& sheet) {
+  CutComplex cut;
+  cut.positions = sheet.positions;
+  for (std::size_t i = 0; i < sheet.node_count(); ++i)
+    cut.sheet_node.push_back(NodeId(i));
+  cut.sheet = sheet.corners;
+  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
+    cut.sheet_parent.push_back(TriId(t));
+  return cut;
+}
+
+CutComplex whole_surface(const TriMesh& surface) {
+  CutComplex cut;
+  cut.positions = surface.positions;
+  cut.surface_node_count = surface.node_count();
+  cut.sheet_node.assign(surface.node_count(), NodeId{});
+  cut.surface = surface.corners;
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    cut.surface_parent.push_back(TriId(t));
+  return cut;
+}
+
 }  // namespace conchoid

@@ -47,4 +47,9 @@ struct EnrichedSpace {
 EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
                                   const std::vector<BoundaryKind>& kinds);
 
+/// A cut complex for a crack in an unbounded body: the sheet alone.
+CutComplex uncut_sheet(const TriMesh& sheet);
+/// A cut complex without a crack.
+CutComplex whole_surface(const TriMesh& surface);
+
 }  // namespace conchoid

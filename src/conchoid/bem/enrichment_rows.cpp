@@ -9,7 +9,7 @@
 namespace conchoid {
 namespace {
 
-// A enrichment function as one panel sees it.
+// An enrichment function as one panel sees it.
 struct LocalFunction {
   std::size_t index;  // in space.functions, or in `wanted` on the test side
   std::array<double, 3> w;
@@ -32,16 +32,21 @@ struct TestRows {
 
 class RowAssembler {
  public:
-  enum class Part { all, load };
+  enum class Part { all, sources };
 
-  RowAssembler(const EnrichmentProblem& problem, const EnrichedSpace& space,
+  RowAssembler(const BodyOperator& body, const EnrichedSpace& space, std::span<const LoadSource> sources,
                const std::vector<std::size_t>& wanted, Part part)
-      : p_(problem),
-        body_(problem.body.blocks()),
+      : body_(body.discretisation()),
         space_(space),
+        source_count_(sources.size()),
         part_(part),
+        source_of_triangle_(body_.surface.triangle_count(), -1),
+        source_of_node_(body_.surface.node_count(), -1),
         trial_(space.panels.size()),
         test_(space.panels.size()) {
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      (sources[s].kind == BoundaryKind::traction ? source_of_triangle_ : source_of_node_)[sources[s].index] =
+          static_cast<int>(s);
     for (const Panel& panel : space.panels)
       curls_.push_back(surface_curls(panel));
     for (std::size_t f = 0; f < space.functions.size(); ++f)
@@ -54,14 +59,14 @@ class RowAssembler {
     for (std::size_t i = 0; i < test_panels_.size(); ++i)
       test_index_[test_panels_[i]] = static_cast<long>(i);
     rows_.assign(wanted.size(), empty_rows());
-    if (part_ == Part::load) return;
+    if (part_ == Part::sources) return;
     const std::size_t n = test_panels_.size();
     table_.resize(n * (n + 1) / 2);
     parallel_for(n, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t j = 0; j <= i; ++j)
-          table_[i * (i + 1) / 2 + j] = p_.body.integrator().single_layer(space_.panels[test_panels_[i]],
-                                                                          space_.panels[test_panels_[j]]);
+          table_[i * (i + 1) / 2 + j] =
+              body_.integrator.single_layer(space_.panels[test_panels_[i]], space_.panels[test_panels_[j]]);
     });
   }
 
@@ -90,10 +95,10 @@ class RowAssembler {
 
   EnrichmentRows empty_rows() const {
     EnrichmentRows r;
-    if (part_ == Part::load) return r;
-    r.D_body = DenseMatrix(3, 3 * body_.unknowns.displacement_count);
-    r.D_enriched = DenseMatrix(3, 3 * space_.functions.size());
-    r.K = DenseMatrix(3 * body_.unknowns.traction_count, 3);
+    r.sources = DenseMatrix(3, 3 * source_count_);
+    if (part_ == Part::sources) return r;
+    r.body = DenseMatrix(3, body_.unknowns());
+    r.enriched = DenseMatrix(3, 3 * space_.functions.size());
     return r;
   }
 
@@ -102,96 +107,80 @@ class RowAssembler {
       for (std::size_t i = 0; i < a.size(); ++i)
         b[i] += a[i];
     };
-    add(from.D_body.data, to.D_body.data);
-    add(from.D_enriched.data, to.D_enriched.data);
-    add(from.K.data, to.K.data);
-    to.load += from.load;
+    add(from.body.data, to.body.data);
+    add(from.enriched.data, to.enriched.data);
+    add(from.sources.data, to.sources.data);
   }
 
   std::vector<TestRows> rows_of_panel(std::size_t x) const {
     std::vector<TestRows> out;
-    for (const LocalFunction& f : test_[x]) {
+    for (const LocalFunction& f : test_[x])
       out.push_back({f, empty_rows()});
-      out.back().rows.load = own_load(x, f);
-    }
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
       const bool on_surface = y < space_.surface_count;
-      if (part_ == Part::load ? !on_surface || !carries_load(y) : !on_surface && trial_[y].empty()) continue;
-      const PairBlocks blocks(pair(x, y), p_.body.material());
+      const bool wanted = part_ == Part::sources ? on_surface && has_source(space_.parent[y])
+                                                 : on_surface || !trial_[y].empty();
+      if (!wanted) continue;
+      const PairBlocks blocks(pair(x, y), body_.m);
       if (part_ == Part::all)
         for (TestRows& t : out)
           for (const LocalFunction& g : trial_[y])
-            t.rows.D_enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
+            t.rows.enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
       if (on_surface) add_body(x, y, blocks, out);
     }
     return out;
   }
 
-  bool carries_load(std::size_t y) const {
-    const auto& nodes = p_.body.surface().corners[space_.parent[y]];
-    return p_.load.traction[space_.parent[y].index()] != Vec3::Zero() ||
-           std::any_of(nodes.begin(), nodes.end(),
-                       [&](NodeId i) { return p_.load.displacement[i] != Vec3::Zero(); });
+  bool has_source(TriId parent) const {
+    const auto& nodes = body_.surface.corners[parent];
+    return source_of_triangle_[parent.index()] >= 0 ||
+           std::any_of(nodes.begin(), nodes.end(), [&](NodeId i) { return source_of_node_[i.index()] >= 0; });
   }
 
   SingleLayerPair pair(std::size_t x, std::size_t y) const {
-    const std::size_t i = std::max(x, y), j = test_[y].empty() ? y : std::min(x, y);
-    const std::size_t first = test_[y].empty() ? x : i;
-    if (part_ == Part::load || test_[y].empty())
-      return p_.body.integrator().single_layer(space_.panels[first], space_.panels[j]);
-    const long row = test_index_[i], column = test_index_[j];
-    return table_[row * (row + 1) / 2 + column];
+    if (test_[y].empty()) return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    if (x < y) std::swap(x, y);
+    if (table_.empty()) return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    const long i = test_index_[x], j = test_index_[y];
+    return table_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+  }
+
+  // Where a column of the body's functions goes: an unknown's, a source's, or nowhere.
+  struct Column {
+    DenseMatrix EnrichmentRows::*matrix = nullptr;
+    std::size_t at = 0;
+  };
+
+  Column column(int unknown, std::size_t first, int source) const {
+    if (unknown >= 0 && part_ == Part::all)
+      return {&EnrichmentRows::body, first + 3 * static_cast<std::size_t>(unknown)};
+    if (source >= 0) return {&EnrichmentRows::sources, 3 * static_cast<std::size_t>(source)};
+    return {};
   }
 
   // Interaction with the body's own functions on surface piece y.
   void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) const {
-    const TriId parent = space_.parent[y];
-    const auto& nodes = p_.body.surface().corners[parent];
+    const std::size_t parent = space_.parent[y].index();
+    const auto& nodes = body_.surface.corners[space_.parent[y]];
     for (int k = 0; k < 3; ++k) {
-      const int column = body_.unknowns.displacement[nodes[k].index()];
-      if (column < 0 ? p_.load.displacement[nodes[k]] == Vec3::Zero() : part_ == Part::load) continue;
-      for (TestRows& t : out) {
-        const Mat3 block = blocks.hypersingular(t.f.curl, body_.curls[parent.index()][k]);
-        if (column >= 0)
-          t.rows.D_body.add(0, 3 * static_cast<std::size_t>(column), block);
-        else
-          t.rows.load -= block * p_.load.displacement[nodes[k]];
-      }
+      const std::size_t node = nodes[k].index();
+      const Column to = column(body_.displacement_unknown[node], body_.tractions(), source_of_node_[node]);
+      if (!to.matrix) continue;
+      for (TestRows& t : out)
+        (t.rows.*to.matrix).add(0, to.at, blocks.hypersingular(t.f.curl, body_.curls[parent][k]));
     }
-    const int q = body_.unknowns.traction[parent.index()];
-    if (q < 0 ? p_.load.traction[parent.index()] == Vec3::Zero() : part_ == Part::load) return;
-    const DoubleLayerPair dl = p_.body.integrator().double_layer(space_.panels[y], space_.panels[x]);
-    for (TestRows& t : out) {
-      const Mat3 block = blocks.double_layer(t.f.curl, weigh(dl, t.f.w));
-      if (q >= 0)
-        t.rows.K.add(3 * static_cast<std::size_t>(q), 0, block);
-      else
-        t.rows.load -= block.transpose() * p_.load.traction[parent.index()];
-    }
+    const Column to = column(body_.traction_unknown[parent], 0, source_of_triangle_[parent]);
+    if (!to.matrix) return;
+    const DoubleLayerPair dl = body_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+    for (TestRows& t : out)
+      (t.rows.*to.matrix).add(0, to.at, blocks.double_layer(t.f.curl, weigh(dl, t.f.w)).transpose());
   }
 
-  // ½M g_N on the surface; the ambient stress, as the traction it puts on the crack plane, on the crack.
-  Vec3 own_load(std::size_t x, const LocalFunction& f) const {
-    const Panel& panel = space_.panels[x];
-    if (x < space_.surface_count) {
-      const std::size_t t = space_.parent[x].index();
-      const double mean = (f.w[0] + f.w[1] + f.w[2]) / 3;
-      return 0.5 * mean * panel.area * p_.load.traction[t];
-    }
-    if (!p_.load.ambient.stress) return Vec3::Zero();
-    Vec3 load = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {  // edge midpoints: exact for linear stress times linear shape
-      const Vec3 middle = 0.5 * (panel.x[k] + panel.x[(k + 1) % 3]);
-      const double opening = -0.5 * (f.w[k] + f.w[(k + 1) % 3]);
-      load += panel.area / 3 * opening * (p_.load.ambient.stress(middle) * panel.normal);
-    }
-    return load;
-  }
-
-  const EnrichmentProblem& p_;
-  const BodyBlocks& body_;
+  const BodyDiscretisation& body_;
   const EnrichedSpace& space_;
+  const std::size_t source_count_;
   const Part part_;
+  std::vector<int> source_of_triangle_, source_of_node_;  // −1: none
   std::vector<std::array<Vec3, 3>> curls_;
   PanelFunctions trial_, test_;
   std::vector<std::size_t> test_panels_;
@@ -202,19 +191,38 @@ class RowAssembler {
 
 }  // namespace
 
-std::vector<EnrichmentRows> assemble_enrichment_rows(const EnrichmentProblem& problem,
-                                                     const EnrichedSpace& space,
+std::vector<EnrichmentRows> assemble_enrichment_rows(const BodyOperator& body, const EnrichedSpace& space,
+                                                     std::span<const LoadSource> sources,
                                                      const std::vector<std::size_t>& wanted) {
-  return RowAssembler(problem, space, wanted, RowAssembler::Part::all).assemble();
+  return RowAssembler(body, space, sources, wanted, RowAssembler::Part::all).assemble();
 }
 
-std::vector<Vec3> assemble_enrichment_loads(const EnrichmentProblem& problem, const EnrichedSpace& space) {
+std::vector<DenseMatrix> assemble_source_columns(const BodyOperator& body, const EnrichedSpace& space,
+                                                 std::span<const LoadSource> sources) {
   std::vector<std::size_t> all(space.functions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<Vec3> loads;
-  for (const EnrichmentRows& rows : RowAssembler(problem, space, all, RowAssembler::Part::load).assemble())
-    loads.push_back(rows.load);
-  return loads;
+  std::vector<DenseMatrix> columns;
+  for (EnrichmentRows& rows : RowAssembler(body, space, sources, all, RowAssembler::Part::sources).assemble())
+    columns.push_back(std::move(rows.sources));
+  return columns;
+}
+
+Vec3 enrichment_load(const EnrichedSpace& space, const EnrichmentFunction& function, const LoadCase& load) {
+  Vec3 f = Vec3::Zero();
+  for (const PanelValues& v : function.support) {
+    const Panel& panel = space.panels[v.panel];
+    if (v.panel < space.surface_count) {
+      const double mean = (v.w[0] + v.w[1] + v.w[2]) / 3;
+      f += 0.5 * mean * panel.area * load.traction[space.parent[v.panel].index()];
+    } else if (load.ambient.stress) {
+      for (int k = 0; k < 3; ++k) {  // edge midpoints: exact for linear stress times linear shape
+        const Vec3 middle = 0.5 * (panel.x[k] + panel.x[(k + 1) % 3]);
+        const double opening = -0.5 * (v.w[k] + v.w[(k + 1) % 3]);
+        f += panel.area / 3 * opening * (load.ambient.stress(middle) * panel.normal);
+      }
+    }
+  }
+  return f;
 }
 
 }  // namespace conchoid

@@ -1,33 +1,35 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "conchoid/bem/body_operator.hpp"
+#include "conchoid/bem/dense_matrix.hpp"
 #include "conchoid/bem/enrichment.hpp"
 
 namespace conchoid {
 
-/// The three rows that one vector-valued enrichment function adds to the system (test function f e_p, p = 0, 1, 2).
+/// The three rows that one vector-valued enrichment function adds to the system (test function f e_p,
+/// p = 0, 1, 2). What they contribute to the right-hand side is
+///   f_a = ½ (M g_N)_a − K_aᵀ g_N − D_a g_D + ∫ φ_a (σ° n)                              docs/theory.md (B7)
+/// whose middle terms are −(sources · prescribed values); the others are enrichment_load().
 struct EnrichmentRows {
-  DenseMatrix D_body;      ///< 3 × 3·displacement unknowns: against the body's nodes
-  DenseMatrix D_enriched;  ///< 3 × 3·functions: against all enrichment functions
-  DenseMatrix K;           ///< 3·traction unknowns × 3: its column of K
-  /// ½M g_N − Kᵀ g_N − D g_D + ambient stress on the crack                               docs/theory.md (B7)
-  Vec3 load = Vec3::Zero();
-};
-
-/// What the rows are made against.
-struct EnrichmentProblem {
-  const BodyOperator& body;
-  const LoadCase& load;
+  DenseMatrix body;      ///< 3 × body unknowns: K_aᵀ against the tractions, D against the displacements
+  DenseMatrix enriched;  ///< 3 × 3·functions: D against all enrichment functions
+  DenseMatrix sources;   ///< 3 × 3·sources: K_aᵀ of prescribed tractions, D of prescribed displacements
 };
 
 /// Rows of the functions listed in `wanted` (indices into space.functions), in that order.
-std::vector<EnrichmentRows> assemble_enrichment_rows(const EnrichmentProblem& problem,
-                                                     const EnrichedSpace& space,
+/// @param sources  places of prescribed values whose columns are made too
+std::vector<EnrichmentRows> assemble_enrichment_rows(const BodyOperator& body, const EnrichedSpace& space,
+                                                     std::span<const LoadSource> sources,
                                                      const std::vector<std::size_t>& wanted);
 
-/// Their `load` alone, for another load case than the one their rows were made for.
-std::vector<Vec3> assemble_enrichment_loads(const EnrichmentProblem& problem, const EnrichedSpace& space);
+/// The columns of some sources alone, for every function of the space: 3 × 3·sources each.
+std::vector<DenseMatrix> assemble_source_columns(const BodyOperator& body, const EnrichedSpace& space,
+                                                 std::span<const LoadSource> sources);
+
+/// ½ (M g_N)_a + ∫ φ_a (σ° n): what of a function's right-hand side needs no pair integrals.
+Vec3 enrichment_load(const EnrichedSpace& space, const EnrichmentFunction& function, const LoadCase& load);
 
 }  // namespace conchoid

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/elastic/kelvin.hpp"
 
 namespace conchoid {
 namespace {
@@ -31,25 +33,6 @@ const std::array<RulePoint, 7>& rule() {
   return points;
 }
 
-// D_kij t_k and S_kij w_k for one pair of points, e = (y − x)/r, n the normal at y.
-Mat3 traction_kernel(const Vec3& e, double r, const Vec3& t, double nu) {
-  const double c = 1 / (8 * std::numbers::pi * (1 - nu) * r * r), te = t.dot(e), a = 1 - 2 * nu;
-  return c *
-         (a * (t * e.transpose() + e * t.transpose() - te * Mat3::Identity()) + 3 * te * e * e.transpose());
-}
-
-Mat3 density_kernel(const Vec3& e, double r, const Vec3& n, const Vec3& w, const ElasticConstants& m) {
-  const double nu = m.poisson_ratio, a = 1 - 2 * nu, en = e.dot(n), we = w.dot(e), wn = w.dot(n);
-  const double c = m.shear_modulus() / (4 * std::numbers::pi * (1 - nu) * r * r * r);
-  const auto symmetric = [](const Vec3& p, const Vec3& q) -> Mat3 {
-    return p * q.transpose() + q * p.transpose();
-  };
-  const Mat3 I = Mat3::Identity();
-  return c * (3 * en * (a * we * I + nu * symmetric(w, e) - 5 * we * e * e.transpose()) +
-              3 * nu * we * symmetric(n, e) + a * (3 * wn * e * e.transpose() + symmetric(n, w)) -
-              (1 - 4 * nu) * wn * I);
-}
-
 Mat3 panel_stress(const Vec3& x, const Triangle& y, const std::array<Vec3, 3>& w, const LoadedPanel& p,
                   const ElasticConstants& m, int depth) {
   const Vec3 center = (y[0] + y[1] + y[2]) / 3;
@@ -71,21 +54,23 @@ Mat3 panel_stress(const Vec3& x, const Triangle& y, const std::array<Vec3, 3>& w
   for (const RulePoint& g : rule()) {
     const auto& b = g.barycentric;
     const Vec3 d = b[0] * y[0] + b[1] * y[1] + b[2] * y[2] - x;
-    const double r = d.norm();
     const Vec3 density = b[0] * w[0] + b[1] * w[1] + b[2] * w[2];
     sum += g.weight * area *
-           (traction_kernel(d / r, r, p.traction, m.poisson_ratio) -
-            density_kernel(d / r, r, p.panel.normal, density, m));
+           (kelvin_stress(d, p.traction, m) - kelvin_dislocation_stress(d, p.panel.normal, density, m));
   }
   return sum;
 }
 
 }  // namespace
 
-Mat3 interior_stress(const Vec3& x, const std::vector<LoadedPanel>& panels, const ElasticConstants& m) {
-  Mat3 stress = Mat3::Zero();
-  for (const LoadedPanel& p : panels)
-    stress += panel_stress(x, p.panel.x, p.density, p, m, 0);
+std::vector<Mat3> interior_stress(std::span<const Vec3> points, const std::vector<LoadedPanel>& panels,
+                                  const ElasticConstants& m) {
+  std::vector<Mat3> stress(points.size(), Mat3::Zero());
+  parallel_for(points.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const LoadedPanel& p : panels)
+        stress[i] += panel_stress(points[i], p.panel.x, p.density, p, m, 0);
+  });
   return stress;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "conchoid/elastic/constants.hpp"
@@ -15,9 +16,10 @@ struct LoadedPanel {
   std::array<Vec3, 3> density;
 };
 
-/// Stress at an inner point by differentiating the representation formula (Somigliana's identity):
+/// Stress at inner points by differentiating the representation formula (Somigliana's identity):
 /// σ_ij(x) = ∫ D_kij(x,y) t_k(y) − ∫ S_kij(x,y) w_k(y)                                 docs/theory.md (T2)
-/// Panels are halved until they are small against their distance from x; x must not lie on a panel.
-Mat3 interior_stress(const Vec3& x, const std::vector<LoadedPanel>& panels, const ElasticConstants& m);
+/// Panels are halved until they are small against their distance from x; no point may lie on a panel.
+std::vector<Mat3> interior_stress(std::span<const Vec3> points, const std::vector<LoadedPanel>& panels,
+                                  const ElasticConstants& m);
 
 }  // namespace conchoid

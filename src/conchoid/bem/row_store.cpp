@@ -1,5 +1,6 @@
 #include "conchoid/bem/row_store.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "conchoid/core/hash.hpp"
@@ -7,36 +8,42 @@
 namespace conchoid {
 namespace {
 
-std::string name_of(const EnrichedSpace& space, const std::vector<std::size_t>& wanted) {
+std::string name_of(const EnrichedSpace& space, std::span<const LoadSource> sources,
+                    const std::vector<std::size_t>& wanted) {
   ContentHash hash;
   for (const EnrichmentFunction& f : space.functions)
     hash.add(std::span<const double>(f.key));
   for (std::size_t w : wanted)
     hash.add(static_cast<std::uint64_t>(w));
+  for (const LoadSource& s : sources) {
+    hash.add(static_cast<std::uint64_t>(s.kind));
+    hash.add(static_cast<std::uint64_t>(s.index));
+  }
   return hash.hex();
 }
 
-bool fits(const std::vector<EnrichmentRows>& rows, const EnrichmentProblem& problem,
-          const EnrichedSpace& space, std::size_t wanted) {
-  if (rows.size() != wanted) return false;
-  const Unknowns& unknowns = problem.body.blocks().unknowns;
-  for (const EnrichmentRows& r : rows)
-    if (r.D_body.rows != 3 || r.D_body.columns != 3 * unknowns.displacement_count || r.D_enriched.rows != 3 ||
-        r.D_enriched.columns != 3 * space.functions.size() || r.K.rows != 3 * unknowns.traction_count ||
-        r.K.columns != 3)
-      return false;
-  return true;
+bool has_size(const DenseMatrix& m, std::size_t columns) {
+  return m.rows == 3 && m.columns == columns && m.data.size() == 3 * columns;
+}
+
+bool fits(const std::vector<EnrichmentRows>& rows, const BodyOperator& body, const EnrichedSpace& space,
+          std::size_t sources, std::size_t wanted) {
+  return rows.size() == wanted && std::all_of(rows.begin(), rows.end(), [&](const EnrichmentRows& r) {
+           return has_size(r.body, body.discretisation().unknowns()) &&
+                  has_size(r.enriched, 3 * space.functions.size()) && has_size(r.sources, 3 * sources);
+         });
 }
 
 }  // namespace
 
-std::vector<EnrichmentRows> stored_rows(const EnrichmentProblem& problem, const EnrichedSpace& space,
+std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
+                                        std::span<const LoadSource> sources,
                                         const std::vector<std::size_t>& wanted, RowStore* store) {
-  if (!store || wanted.empty()) return assemble_enrichment_rows(problem, space, wanted);
-  const std::string name = name_of(space, wanted);
-  if (auto known = store->recall(name); known && fits(*known, problem, space, wanted.size()))
+  if (!store || wanted.empty()) return assemble_enrichment_rows(body, space, sources, wanted);
+  const std::string name = name_of(space, sources, wanted);
+  if (auto known = store->recall(name); known && fits(*known, body, space, sources.size(), wanted.size()))
     return std::move(*known);
-  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(problem, space, wanted);
+  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(body, space, sources, wanted);
   store->keep(name, rows);
   return rows;
 }

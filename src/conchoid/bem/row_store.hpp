@@ -14,15 +14,16 @@ class RowStore {
  public:
   virtual ~RowStore() = default;
   /// The rows of that name, or nothing: then they are assembled and handed to keep().
-  /// @param name  of the functions that are there and of those whose rows are wanted (a hash of their
-  ///              geometry)
+  /// @param name  of the functions that are there, of those whose rows are wanted, and of the places where
+  ///              values are prescribed (a hash of the functions' geometry and of the places)
   virtual std::optional<std::vector<EnrichmentRows>> recall(const std::string& name) = 0;
   virtual void keep(const std::string& name, const std::vector<EnrichmentRows>& rows) = 0;
 };
 
-/// Rows of the functions listed in `wanted`: from the store if it has them, else assembled.
+/// assemble_enrichment_rows(), or what the store has under their name.
 /// @param store  may be null
-std::vector<EnrichmentRows> stored_rows(const EnrichmentProblem& problem, const EnrichedSpace& space,
+std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
+                                        std::span<const LoadSource> sources,
                                         const std::vector<std::size_t>& wanted, RowStore* store);
 
 }  // namespace conchoid

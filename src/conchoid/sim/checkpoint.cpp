@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "conchoid rows 1\n";
+constexpr std::string_view kMagic = "conchoid rows 2\n";
 
 void put(ByteWriter& out, const DenseMatrix& m) {
   out.put(static_cast<std::uint64_t>(m.rows));
@@ -68,11 +68,9 @@ void Checkpoint::finish(int frame) {
     out.put_text(record.name);
     out.put(static_cast<std::uint64_t>(record.rows.size()));
     for (const EnrichmentRows& rows : record.rows) {
-      put(out, rows.D_body);
-      put(out, rows.D_enriched);
-      put(out, rows.K);
-      for (int p = 0; p < 3; ++p)
-        out.put(rows.load[p]);
+      put(out, rows.body);
+      put(out, rows.enriched);
+      put(out, rows.sources);
     }
   }
   const std::uint64_t check = hash_bytes(out.bytes());
@@ -99,11 +97,9 @@ std::vector<Checkpoint::Record> Checkpoint::read(int frame) const {
       record.name = in.get_text();
       record.rows.resize(in.get<std::uint64_t>());
       for (EnrichmentRows& rows : record.rows) {
-        rows.D_body = get_matrix(in);
-        rows.D_enriched = get_matrix(in);
-        rows.K = get_matrix(in);
-        for (int p = 0; p < 3; ++p)
-          rows.load[p] = in.get<double>();
+        rows.body = get_matrix(in);
+        rows.enriched = get_matrix(in);
+        rows.sources = get_matrix(in);
       }
     }
     return records;

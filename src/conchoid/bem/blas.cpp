@@ -1,0 +1,29 @@
+#include "conchoid/bem/blas.hpp"
+
+#include <cmath>
+
+extern "C" {
+void openblas_set_num_threads(int);
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+}
+
+namespace conchoid {
+
+void use_one_blas_thread() {
+  static const bool once = (openblas_set_num_threads(1), true);
+  (void)once;
+}
+
+bool factor_in_place(double* a, std::size_t n, std::size_t lead) {
+  if (n == 0) return true;
+  const int size = static_cast<int>(n), stride = static_cast<int>(lead);
+  int info = 0;
+  dpotrf_("L", &size, a, &stride, &info);
+  return info == 0;
+}
+
+double unit_scale(double first) {
+  return first > 0 && std::isfinite(first) ? std::ldexp(1.0, -std::ilogb(first)) : 1.0;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,142 @@
+#include "conchoid/bem/body_entries.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "conchoid/bem/load_case.hpp"
+#include "conchoid/bem/pair_blocks.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
+
+namespace conchoid {
+namespace {
+
+void add(const BlockView& out, std::size_t i, std::size_t j, const Mat3& block) {
+  double* at = out.data + 3 * i * out.row + 3 * j * out.column;
+  for (int p = 0; p < 3; ++p)
+    for (int q = 0; q < 3; ++q)
+      at[p * out.row + q * out.column] += block(p, q);
+}
+
+void clear(const BlockView& out, std::size_t rows, std::size_t columns) {
+  for (std::size_t i = 0; i < 3 * rows; ++i)
+    for (std::size_t j = 0; j < 3 * columns; ++j)
+      out.data[i * out.row + j * out.column] = 0;
+}
+
+std::vector<std::size_t> triangles_around(const BodyDiscretisation& body, std::span<const NodeId> nodes) {
+  std::vector<std::size_t> all;
+  for (NodeId node : nodes)
+    for (const CornerAt& c : body.around[node.index()])
+      all.push_back(c.triangle);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+// Per corner of some triangles: the column of its node, or −1.
+std::vector<std::array<int, 3>> columns_of_corners(const BodyDiscretisation& body,
+                                                   const std::vector<std::size_t>& triangles,
+                                                   std::span<const NodeId> nodes) {
+  std::vector<int> column(body.surface.node_count(), -1);
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    column[nodes[j].index()] = static_cast<int>(j);
+  std::vector<std::array<int, 3>> out;
+  for (std::size_t t : triangles) {
+    const auto& c = body.surface.corners[TriId(t)];
+    out.push_back({column[c[0].index()], column[c[1].index()], column[c[2].index()]});
+  }
+  return out;
+}
+
+}  // namespace
+
+BodyDiscretisation::BodyDiscretisation(TriMesh s, std::vector<BoundaryKind> k, const ElasticConstants& c,
+                                       double quadrature_tolerance)
+    : surface(std::move(s)), kinds(std::move(k)), m(c), integrator(quadrature_tolerance) {
+  if (kinds.size() != surface.triangle_count())
+    throw InputError("body: " + std::to_string(kinds.size()) + " kinds of conditions for a surface of " +
+                     std::to_string(surface.triangle_count()) + " triangles; give one for each");
+  around.resize(surface.node_count());
+  traction_unknown.assign(surface.triangle_count(), -1);
+  displacement_unknown.assign(surface.node_count(), -1);
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+    const auto& nodes = surface.corners[TriId(t)];
+    panels.push_back(make_panel(surface.triangle(TriId(t)), nodes));
+    curls.push_back(surface_curls(panels.back()));
+    for (int corner = 0; corner < 3; ++corner)
+      around[nodes[corner].index()].push_back({t, corner});
+    if (kinds[t] != BoundaryKind::displacement) continue;
+    traction_unknown[t] = static_cast<int>(held_triangles.size());
+    held_triangles.emplace_back(t);
+  }
+  const std::vector<char> held = held_nodes(surface, kinds);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (held[i]) continue;
+    displacement_unknown[i] = static_cast<int>(free_nodes.size());
+    free_nodes.emplace_back(i);
+  }
+}
+
+void BodyEntries::keep_pairs() {
+  const std::size_t n = body_.panels.size();
+  pairs_.resize(n * (n + 1) / 2);
+  parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t x = begin; x < end; ++x)
+      for (std::size_t y = 0; y <= x; ++y)
+        pairs_[x * (x + 1) / 2 + y] = body_.integrator.single_layer(body_.panels[x], body_.panels[y]);
+  });
+}
+
+SingleLayerPair BodyEntries::pair(std::size_t x, std::size_t y) const {
+  if (x < y) std::swap(x, y);
+  return pairs_.empty() ? body_.integrator.single_layer(body_.panels[x], body_.panels[y])
+                        : pairs_[x * (x + 1) / 2 + y];
+}
+
+void BodyEntries::single_layer(std::span<const TriId> rows, std::span<const TriId> columns,
+                               BlockView out) const {
+  clear(out, rows.size(), columns.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      add(out, i, j, PairBlocks(pair(rows[i].index(), columns[j].index()), body_.m).single_layer());
+}
+
+void BodyEntries::double_layer(std::span<const TriId> rows, std::span<const NodeId> columns,
+                               BlockView out) const {
+  clear(out, rows.size(), columns.size());
+  const std::vector<std::size_t> trial = triangles_around(body_, columns);
+  const auto column = columns_of_corners(body_, trial, columns);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t x = rows[i].index();
+    for (std::size_t t = 0; t < trial.size(); ++t) {
+      const std::size_t y = trial[t];
+      const PairBlocks blocks(pair(x, y), body_.m);
+      const DoubleLayerPair laplace = body_.integrator.double_layer(body_.panels[x], body_.panels[y]);
+      for (int k = 0; k < 3; ++k)
+        if (column[t][k] >= 0)
+          add(out, i, static_cast<std::size_t>(column[t][k]),
+              blocks.double_layer(body_.curls[y][k], laplace[k]));
+    }
+  }
+}
+
+void BodyEntries::hypersingular(std::span<const NodeId> rows, std::span<const NodeId> columns,
+                                BlockView out) const {
+  clear(out, rows.size(), columns.size());
+  const std::vector<std::size_t> test = triangles_around(body_, rows),
+                                 trial = triangles_around(body_, columns);
+  const auto row = columns_of_corners(body_, test, rows), column = columns_of_corners(body_, trial, columns);
+  for (std::size_t s = 0; s < test.size(); ++s)
+    for (std::size_t t = 0; t < trial.size(); ++t) {
+      const std::size_t x = test[s], y = trial[t];
+      const PairBlocks blocks(pair(x, y), body_.m);
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b)
+          if (row[s][a] >= 0 && column[t][b] >= 0)
+            add(out, static_cast<std::size_t>(row[s][a]), static_cast<std::size_t>(column[t][b]),
+                blocks.hypersingular(body_.curls[x][a], body_.curls[y][b]));
+    }
+}
+
+}  // namespace conchoid

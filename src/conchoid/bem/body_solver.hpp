@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "conchoid/bem/body_entries.hpp"
+
+namespace conchoid {
+
+/// The system of an uncracked body, ready to be solved. Vectors hold the unknown tractions q, then the unknown
+/// displacements u; several of them lie one after the other.
+///   A x = | V  −K          | |q|         r: orthonormal rigid motions of parts that nothing holds; the last
+///         | Kᵀ  D + α Σrrᵀ | |u|            term leaves the solution of balanced loads as it is, without r
+/// Everything else (cracks, loads) goes through these two functions, so another representation of A (compressed,
+/// on another device, iterative) is a class of its own and one line in body_solver.cpp.
+class BodySolver {
+ public:
+  virtual ~BodySolver() = default;
+  /// y = A x.
+  virtual void apply(const double* x, double* y, std::size_t count = 1) const = 0;
+  /// A⁻¹ b in place. Errors: ComputationError when an iteration does not converge.
+  virtual void solve(double* b, std::size_t count = 1) const = 0;
+  /// Memory that the solver holds.
+  virtual std::size_t bytes() const = 0;
+};
+
+/// Rigid motions in terms of the unknown displacements, each 3·free nodes long.
+using RigidMotions = std::vector<std::vector<double>>;
+
+/// Errors: ComputationError when the system is not definite (the mesh has overlapping or nearly degenerate
+/// triangles).
+using BodySolverFactory = std::unique_ptr<BodySolver> (*)(BodyEntries& entries, const RigidMotions& motions);
+
+/// Names of the solvers there are, the default first.
+std::vector<std::string> body_solver_names();
+/// Errors: InputError for a name that is not known.
+std::unique_ptr<BodySolver> make_body_solver(const std::string& name, BodyEntries& entries,
+                                             const RigidMotions& motions);
+
+}  // namespace conchoid

@@ -1,0 +1,210 @@
+#include "conchoid/bem/crack_system.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <map>
+
+#include "conchoid/bem/blas.hpp"
+#include "conchoid/bem/row_store.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
+
+namespace conchoid {
+namespace {
+
+Mat3 block_of(const DenseMatrix& m, std::size_t i, std::size_t j) {
+  Mat3 block;
+  for (int p = 0; p < 3; ++p)
+    for (int q = 0; q < 3; ++q)
+      block(p, q) = m(i + static_cast<std::size_t>(p), j + static_cast<std::size_t>(q));
+  return block;
+}
+
+CrackSystem::Function make_function(const EnrichedSpace& space, const EnrichmentFunction& f,
+                                    EnrichmentRows& rows) {
+  CrackSystem::Function out{f.kind, f.node, f.key, std::move(rows.body), std::move(rows.sources)};
+  for (const PanelValues& v : f.support)
+    if (v.panel >= space.surface_count)
+      out.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
+  if (f.carries_opening()) out.normal.normalize();
+  return out;
+}
+
+// Appends columns on the right.
+void widen(DenseMatrix& m, const DenseMatrix& by) {
+  DenseMatrix out(3, m.columns + by.columns);
+  for (std::size_t p = 0; p < 3; ++p) {
+    std::copy_n(m.data.data() + p * m.columns, m.columns, out.data.data() + p * out.columns);
+    std::copy_n(by.data.data() + p * by.columns, by.columns, out.data.data() + p * out.columns + m.columns);
+  }
+  m = std::move(out);
+}
+
+}  // namespace
+
+// Which functions of the new space are known, and which rows are wanted.
+struct CrackSystem::Plan {
+  std::vector<std::size_t> order;   // functions of the space, in the order of the system
+  std::vector<std::size_t> before;  // of the known ones: their position in the old system
+  std::vector<std::size_t> wanted;  // functions of the space to be assembled: the rest of `order`
+  std::size_t unchanged = 0;        // leading functions that stay where they are
+};
+
+CrackSystem::CrackSystem(std::shared_ptr<const BodyOperator> body)
+    : body_(std::move(body)),
+      space_(make_enriched_space(whole_surface(body_->surface()), body_->surface(), body_->kinds())) {}
+
+void CrackSystem::set_crack(const CutComplex& cut, RowStore* store) {
+  space_ = make_enriched_space(cut, body_->surface(), body_->kinds());
+  const Plan plan = plan_replacement();
+  append(plan, stored_rows(*body_, space_, sources_, plan.wanted, store));
+  factored_ = std::min(factored_, plan.unchanged);
+  factor_.truncate(3 * factored_);
+  statistics_ = {functions_.size(), plan.wanted.size(), functions_.size() - factored_};
+  eliminate();
+}
+
+CrackSystem::Plan CrackSystem::plan_replacement() const {
+  std::map<std::vector<double>, std::size_t> index_of_key;
+  for (std::size_t f = 0; f < space_.functions.size(); ++f)
+    index_of_key.emplace(space_.functions[f].key, f);
+  Plan plan;
+  std::vector<char> taken(space_.functions.size(), 0);
+  for (std::size_t i = 0; i < functions_.size(); ++i) {
+    const auto found = index_of_key.find(functions_[i].key);
+    if (found == index_of_key.end() || taken[found->second]) continue;
+    if (plan.order.size() == i) plan.unchanged = i + 1;
+    taken[found->second] = 1;
+    plan.order.push_back(found->second);
+    plan.before.push_back(i);
+  }
+  for (std::size_t f = 0; f < space_.functions.size(); ++f)
+    if (!taken[f]) plan.wanted.push_back(f);
+  plan.order.insert(plan.order.end(), plan.wanted.begin(), plan.wanted.end());
+  return plan;
+}
+
+void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
+  const std::size_t kept = plan.before.size(), count = plan.order.size();
+  std::vector<Function> functions;
+  DenseMatrix S(3 * count, 3 * count);
+  for (std::size_t i = 0; i < kept; ++i) {
+    functions.push_back(std::move(functions_[plan.before[i]]));
+    functions.back().node = space_.functions[plan.order[i]].node;
+    for (std::size_t j = 0; j < kept; ++j)
+      S.add(3 * i, 3 * j, block_of(S_, 3 * plan.before[i], 3 * plan.before[j]));
+  }
+  for (std::size_t w = 0; w < plan.wanted.size(); ++w)
+    functions.push_back(make_function(space_, space_.functions[plan.wanted[w]], rows[w]));
+  functions_ = std::move(functions);
+  const DenseMatrix coupling = couplings(kept);
+  for (std::size_t w = 0; w < plan.wanted.size(); ++w)
+    for (std::size_t j = 0; j <= kept + w; ++j) {
+      const std::size_t i = kept + w;
+      const Mat3 block =
+          block_of(rows[w].enriched, 0, 3 * plan.order[j]) - block_of(coupling, 3 * j, 3 * w).transpose();
+      S.add(3 * i, 3 * j, block);
+      if (j < i) S.add(3 * j, 3 * i, block.transpose());
+    }
+  S_ = std::move(S);
+  position_.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    position_[plan.order[i]] = i;
+}
+
+// R A⁻¹ B of all functions' rows and the columns of those from `first` on.
+DenseMatrix CrackSystem::couplings(std::size_t first) const {
+  constexpr std::size_t rows_of_task = 32;
+  const std::size_t n = body_->discretisation().unknowns(), nq = body_->discretisation().tractions();
+  const std::size_t columns = 3 * (functions_.size() - first);
+  DenseMatrix out(size(), columns);
+  if (n == 0 || columns == 0) return out;
+  std::vector<double> x;  // B, then A⁻¹ B
+  x.reserve(columns * n);
+  for (std::size_t f = first; f < functions_.size(); ++f)
+    x.insert(x.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+  for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t i = 0; i < nq; ++i)
+      x[c * n + i] = -x[c * n + i];
+  body_->solver().solve(x.data(), columns);
+  use_one_blas_thread();
+  parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> rows;
+    for (std::size_t f = begin; f < end; ++f)
+      rows.insert(rows.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(3 * (end - begin)),
+                static_cast<int>(columns), static_cast<int>(n), 1.0, rows.data(), static_cast<int>(n),
+                x.data(), static_cast<int>(n), 0.0, out.data.data() + 3 * begin * columns,
+                static_cast<int>(columns));
+  });
+  return out;
+}
+
+void CrackSystem::eliminate() {
+  const std::size_t before = 3 * factored_, count = size() - before;
+  std::vector<double> coupling(count * before), diagonal(count * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* row = S_.data.data() + (before + i) * S_.columns;
+    std::copy_n(row, before, coupling.data() + i * before);
+    std::copy_n(row + before, count, diagonal.data() + i * count);
+  }
+  if (!factor_.append(coupling, diagonal))
+    throw SingularSystem(
+        "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
+        "touches itself");
+  factored_ = functions_.size();
+}
+
+void CrackSystem::need_sources(std::span<const LoadSource> sources) {
+  std::vector<LoadSource> missing;
+  for (const LoadSource& s : sources)
+    if (std::find(sources_.begin(), sources_.end(), s) == sources_.end()) missing.push_back(s);
+  if (missing.empty()) return;
+  if (!functions_.empty()) {
+    const std::vector<DenseMatrix> columns = assemble_source_columns(*body_, space_, missing);
+    for (std::size_t f = 0; f < columns.size(); ++f)
+      widen(functions_[position_[f]].sources, columns[f]);
+  }
+  sources_.insert(sources_.end(), missing.begin(), missing.end());
+}
+
+std::vector<double> CrackSystem::right_hand_side(const LoadCase& load) const {
+  std::vector<Vec3> values;
+  for (const LoadSource& s : sources_)
+    values.push_back(value_at(load, s));
+  std::vector<double> g(size());
+  for (std::size_t f = 0; f < functions_.size(); ++f) {
+    const std::size_t i = position_[f];
+    Vec3 sum = enrichment_load(space_, space_.functions[f], load);
+    for (std::size_t s = 0; s < values.size(); ++s)
+      sum -= block_of(functions_[i].sources, 0, 3 * s) * values[s];
+    std::copy_n(sum.data(), 3, &g[3 * i]);
+  }
+  return g;
+}
+
+void CrackSystem::reduce(const double* x, std::vector<double>& g) const {
+  const int n = static_cast<int>(body_->discretisation().unknowns());
+  if (n == 0) return;
+  use_one_blas_thread();
+  for (std::size_t f = 0; f < functions_.size(); ++f)
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, 3, n, -1.0, functions_[f].rows.data.data(), n, x, 1, 1.0,
+                &g[3 * f], 1);
+}
+
+std::vector<double> CrackSystem::forces_on_body(const std::vector<double>& a) const {
+  const BodyDiscretisation& body = body_->discretisation();
+  std::vector<double> out(body.unknowns(), 0.0);
+  const int n = static_cast<int>(out.size());
+  if (n == 0) return out;
+  use_one_blas_thread();
+  for (std::size_t f = 0; f < functions_.size(); ++f)
+    cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
+                out.data(), 1);
+  for (std::size_t i = 0; i < body.tractions(); ++i)
+    out[i] = -out[i];
+  return out;
+}
+
+}  // namespace conchoid

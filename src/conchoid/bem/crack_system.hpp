@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "conchoid/bem/body_operator.hpp"
+#include "conchoid/bem/bordered_cholesky.hpp"
+#include "conchoid/bem/enrichment.hpp"
+#include "conchoid/bem/enrichment_rows.hpp"
+
+namespace conchoid {
+
+class RowStore;
+
+/// What the last set_crack() had to do.
+struct AppendStatistics {
+  std::size_t functions = 0;   ///< enrichment functions in the system
+  std::size_t assembled = 0;   ///< of these, assembled anew
+  std::size_t refactored = 0;  ///< of these, eliminated anew
+};
+
+/// The crack's border of the body's system: unknown coefficients a of the enrichment functions, beside the
+/// body's unknowns x = (q, u).
+///   | A  B | |x|   |f|       R = (K_aᵀ  D_au) one row per component of a, B = (−K_a ; D_ua)
+///   | R  D | |a| = |g|       S = D − R A⁻¹ B ,   S a = g − R A⁻¹ f ,   x = A⁻¹ (f − B a)   docs/theory.md (B6)
+/// A is only ever solved with, so any BodySolver will do. S is symmetric positive definite; its Cholesky
+/// factor grows and shrinks at its end with the crack.
+/// Memory for m functions: 72 m² bytes for S and as much for its factor, 72 bytes per function and source,
+/// 24 bytes per function and body unknown.
+class CrackSystem {
+ public:
+  /// An enrichment function that is in the system.
+  struct Function {
+    EnrichmentKind kind;
+    NodeId node;
+    std::vector<double> key;
+    DenseMatrix rows;     ///< 3 × body unknowns, of R
+    DenseMatrix sources;  ///< 3 × 3·sources
+    Vec3 normal = Vec3::Zero();
+    bool carries_opening() const { return kind != EnrichmentKind::hat; }
+  };
+
+  explicit CrackSystem(std::shared_ptr<const BodyOperator> body);
+
+  /// Replaces the crack. Functions whose support did not change keep their rows, in the order they had; new
+  /// ones come after them. Errors: ComputationError when S is singular (a piece has come off).
+  /// @param store  may be null
+  void set_crack(const CutComplex& cut, RowStore* store);
+  /// Makes the columns of sources that are not there yet, for every function.
+  void need_sources(std::span<const LoadSource> sources);
+
+  const EnrichedSpace& space() const { return space_; }
+  const std::vector<Function>& functions() const { return functions_; }
+  std::size_t size() const { return 3 * functions_.size(); }
+  /// Position in functions() of each function of the space.
+  const std::vector<std::size_t>& position() const { return position_; }
+  const AppendStatistics& statistics() const { return statistics_; }
+
+  /// g: the crack's own right-hand side, whose sources must be there.
+  std::vector<double> right_hand_side(const LoadCase& load) const;
+  /// g − R x for x = A⁻¹ f.
+  void reduce(const double* x, std::vector<double>& g) const;
+  /// B a.
+  std::vector<double> forces_on_body(const std::vector<double>& a) const;
+  /// S⁻¹ in place.
+  void solve(double* b, std::size_t count = 1) const { factor_.solve(b, count); }
+
+ private:
+  struct Plan;
+  Plan plan_replacement() const;
+  void append(const Plan& plan, std::vector<EnrichmentRows> rows);
+  DenseMatrix couplings(std::size_t first) const;
+  void eliminate();
+
+  std::shared_ptr<const BodyOperator> body_;
+  EnrichedSpace space_;
+  std::vector<LoadSource> sources_;
+  std::vector<Function> functions_;
+  std::vector<std::size_t> position_;
+  DenseMatrix S_;
+  BorderedCholesky factor_;
+  std::size_t factored_ = 0;  // functions eliminated
+  AppendStatistics statistics_;
+};
+
+}  // namespace conchoid
