@@ -55,7 +55,7 @@ void assembly(benchmark::State& state, BodyKind kind, Support support) {
   const BoundaryData data = load(mesh, support);
   BodyBlocks fast, slow;
   const auto assemble = [&](double tolerance, BodyBlocks& out) {
-    return seconds([&] { out = assemble_body(mesh, data, kGlassy, PairIntegrator(tolerance)); });
+    return seconds([&] { out = assemble_body(mesh, data.kind, kGlassy, PairIntegrator(tolerance)); });
   };
   const Times t = side_by_side(
       state, [&] { return assemble(BemSettings{}.quadrature_tolerance, fast); },
@@ -71,7 +71,7 @@ void body_ready(benchmark::State& state, BodyKind kind, Support support) {
   const TriMesh mesh = body_mesh(kind);
   const BoundaryData data = load(mesh, support);
   const auto make = [&](double tolerance) {
-    return seconds([&] { CrackedBody(mesh, data, kGlassy, {}, {tolerance, true}); });
+    return seconds([&] { make_cracked_body(mesh, data, kGlassy, {}, {tolerance, true}); });
   };
   const Times t = side_by_side(
       state, [&] { return make(BemSettings{}.quadrature_tolerance); }, [&] { return make(1e-10); });
@@ -165,7 +165,7 @@ void grown_crack(benchmark::State& state, BodyKind kind) {
   const TriMesh mesh = body_mesh(kind);
   const BoundaryData data = load(mesh, Support::pulled);
   const GrowingCrack crack = growing_crack(mesh);
-  CrackedBody body(mesh, data, kGlassy);
+  CrackedBody body = make_cracked_body(mesh, data, kGlassy);
   std::optional<CrackedBody> anew;
   AppendStatistics statistics;
   side_by_side(
@@ -178,7 +178,7 @@ void grown_crack(benchmark::State& state, BodyKind kind) {
       },
       [&] {
         return seconds([&] {
-          anew.emplace(mesh, data, kGlassy);
+          anew.emplace(make_cracked_body(mesh, data, kGlassy));
           anew->set_crack(crack.after);
         });
       });

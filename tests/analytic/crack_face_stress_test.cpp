@@ -22,7 +22,7 @@ struct Face {
 
 // Of all triangles within 0.7 of the radius.
 std::vector<Face> faces_of_penny(const Mat3& remote) {
-  CrackedBody body({}, {}, kMaterial, uniform_stress(remote, kYoung, kNu), {});
+  CrackedBody body = make_cracked_body({}, {}, kMaterial, uniform_stress(remote, kYoung, kNu));
   const TriMesh disc = disc_crack(Vec3::Zero(), Vec3::UnitZ(), kRadius, {.triangles = 384});
   body.set_crack(uncut_sheet(disc));
   body.solve();

@@ -40,12 +40,12 @@ PatchResult patch(const TriMesh& mesh, const std::function<bool(const Vec3&)>& h
     }
   }
   const auto exact_displacement = data.displacement;
-  CrackedBody body(mesh, data, kGlassy, {}, {1e-10, true});
+  CrackedBody body = make_cracked_body(mesh, data, kGlassy, {}, {1e-10, true});
   body.solve();
   PatchResult r{};
   auto u = body.displacement();
   if (rigid_removed) {
-    const auto modes = floating_motions(mesh, data);
+    const auto modes = floating_motions(mesh, data.kind);
     for (const auto& mode : modes) {
       double product = 0;
       for (std::size_t i = 0; i < u.size(); ++i)
@@ -111,7 +111,7 @@ TEST(SurfaceStress, PressurisedSphereIsHydrostatic) {
   BoundaryData data = free_surface(mesh);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     data.traction[t] = -5e6 * unit_normal(mesh, TriId(t));
-  CrackedBody body(mesh, data, kGlassy);
+  CrackedBody body = make_cracked_body(mesh, data, kGlassy);
   body.solve();
   for (const Mat3& s : body.surface_stress())
     EXPECT_LT((s + 5e6 * Mat3::Identity()).norm(), 0.01 * 5e6);
@@ -131,7 +131,7 @@ TEST(SurfaceStress, HollowSphereUnderInnerPressureFollowsLame) {
   BoundaryData data = free_surface(mesh);
   for (std::size_t t = outer_triangles; t < mesh.triangle_count(); ++t)
     data.traction[t] = -pressure * unit_normal(mesh, TriId(t));
-  CrackedBody body(mesh, data, kGlassy, {}, {1e-4, true});
+  CrackedBody body = make_cracked_body(mesh, data, kGlassy, {}, {1e-4, true});
   body.solve();
   const double hoop_outer = 1.5 * pressure * a * a * a / (b * b * b - a * a * a);
   const auto stress = body.surface_stress();
@@ -156,7 +156,7 @@ TEST(RigidBody, UnbalancedLoadIsSeenAndRelieved) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     rest.traction[t] -= field.stress(centroid(mesh, TriId(t))) * unit_normal(mesh, TriId(t));
   EXPECT_LT(resultant(mesh, rest).force.norm(), 1e-9 * 1e6);
-  CrackedBody body(mesh, rest, kGlassy, field);
+  CrackedBody body = make_cracked_body(mesh, rest, kGlassy, field);
   body.solve();
   for (double z : {-0.5, 0.0, 0.5})
     EXPECT_NEAR(body.interior_stress(Vec3(0.05, -0.1, z))(2, 2), 1e6 * (z + 1.5) / 3, 0.02e6);

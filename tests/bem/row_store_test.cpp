@@ -18,17 +18,17 @@ const ElasticConstants kGlassy{3.1e9, 0.327};
 
 class MemoryStore : public RowStore {
  public:
-  std::optional<std::vector<CutRows>> recall(const std::string& name) override {
+  std::optional<std::vector<EnrichmentRows>> recall(const std::string& name) override {
     const auto found = rows.find(name);
     if (found == rows.end()) return std::nullopt;
     ++recalled;
     return found->second;
   }
-  void keep(const std::string& name, const std::vector<CutRows>& made) override {
+  void keep(const std::string& name, const std::vector<EnrichmentRows>& made) override {
     ++kept;
     rows[name] = made;
   }
-  std::map<std::string, std::vector<CutRows>> rows;
+  std::map<std::string, std::vector<EnrichmentRows>> rows;
   int recalled = 0, kept = 0;
 };
 
@@ -40,7 +40,7 @@ CrackedBody pulled_cube() {
     if (z > 0.9) data.traction[t] = {0, 0, 1e6};
     if (z < -0.9) data.kind[t] = BoundaryKind::displacement;
   }
-  return CrackedBody(cube, data, kGlassy);
+  return make_cracked_body(cube, data, kGlassy);
 }
 
 /// Openings of a disc, and of the disc twice as large after it, in one body.
@@ -74,7 +74,7 @@ TEST(RowStore, WhatIsRecalledIsWhatIsUsed) {
   MemoryStore store;
   const std::vector<Vec3> plain = openings(&store);
   for (auto& [name, rows] : store.rows)
-    for (CutRows& r : rows)
+    for (EnrichmentRows& r : rows)
       r.load *= 2;
   EXPECT_NE(openings(&store), plain);
 }

@@ -163,7 +163,7 @@ const std::vector<BadInput> kBadInputs = {
     {"threads_text", scene(kCube), {"run", "scene.toml", "--threads", "two"}, {"--threads"}},
     {"zero_frames", scene(kCube), {"run", "scene.toml", "--frames", "0"}, {"--frames"}},
     {"unknown_method", scene(kCube), {"run", "scene.toml", "--method", "magic"}, {"--method"}},
-    {"forest_without_file", scene(kCube), {"run", "scene.toml", "--method", "forest"}, {"--database FOREST"}},
+    {"forest_without_file", scene(kCube), {"run", "scene.toml", "--method", "forest"}, {"--database FILE"}},
     {"bem_with_forest",
      broken_forest([](auto& f) { return f; }),
      {"run", "scene.toml", "--database", "good.forest"},

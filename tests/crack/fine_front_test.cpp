@@ -51,7 +51,7 @@ struct Growth {
 
   template <class Angle, class Share>
   void frame(Angle angle, Share share) {
-    advance_fronts(sheet, fine, steps_of(sheet, angle, share), homogeneous, kEdge);
+    advance_fronts(sheet, fine, steps_of(sheet, angle, share), {kLaw, homogeneous}, kEdge);
   }
   void straight_frame(double share) {
     frame([](NodeId) { return 0.0; }, [=](NodeId) { return share; });
@@ -90,7 +90,7 @@ std::size_t marker_count(const FineFront& fine) {
   return count;
 }
 
-/// Every coarse front node lies exactly on the marker it rides on.
+/// Every coarse front node lies exactly on the marker it is attached to.
 void expect_agreement(const Growth& growth) {
   ASSERT_EQ(growth.fine.curves().size(), growth.sheet.fronts.size());
   for (std::size_t f = 0; f < growth.sheet.fronts.size(); ++f) {
@@ -204,7 +204,7 @@ TEST(FineFront, ATougherHalfIsFeltByTheMarkers) {
   const auto layered = [](const Vec3& x) { return Toughness{x.x() > 0.005 ? 2.5e6 : 1e6, Vec3::Zero()}; };
   const auto steps = steps_of(
       growth.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return 0.75; });  // K_eff = 2 MPa√m
-  advance_fronts(growth.sheet, growth.fine, steps, layered, kEdge);
+  advance_fronts(growth.sheet, growth.fine, steps, {kLaw, layered}, kEdge);
   for (const Marker& m : growth.fine.curves()[0].markers) {
     if (m.position.x() > 0.02) {
       EXPECT_LT(m.position.norm(), 1 + 1e-9);
@@ -258,7 +258,7 @@ TEST(FineFront, ScalingByAPowerOfTwoKeepsTheBits) {
     advance_fronts(two.sheet, two.fine,
                    steps_of(
                        two.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return 0.55; }),
-                   homogeneous, 8 * kEdge);
+                   {kLaw, homogeneous}, 8 * kEdge);
   }
   ASSERT_EQ(one.fine.surface().corners, two.fine.surface().corners);
   for (std::size_t i = 0; i < one.fine.surface().node_count(); ++i)

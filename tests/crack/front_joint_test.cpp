@@ -28,9 +28,9 @@ Toughness homogeneous(const Vec3&) {
 struct Growth {
   CrackSheet sheet;
   FineFront fine;
-  std::optional<FineFront> led;
+  std::optional<FineFront> follower;
 
-  explicit Growth(const std::vector<TriMesh>& parts, std::optional<double> led_spacing = std::nullopt)
+  explicit Growth(const std::vector<TriMesh>& parts, std::optional<double> follower_spacing = std::nullopt)
       : sheet([&] {
           CrackSheet s;
           for (const TriMesh& part : parts)
@@ -38,7 +38,8 @@ struct Growth {
           return s;
         }()),
         fine(sheet, {.resolution = kEdge, .spacing = kSpacing}) {
-    if (led_spacing) led.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *led_spacing});
+    if (follower_spacing)
+      follower.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *follower_spacing});
   }
 
   /// Straight on by the given share of r̄.
@@ -50,7 +51,7 @@ struct Growth {
         if (sheet.state[front.nodes[i]] == FrontState::active)
           steps.push_back({front.nodes[i], frames[i], 0, kToughness / std::sqrt(1 - share)});
     }
-    advance_fronts(sheet, fine, steps, homogeneous, kEdge, led ? &*led : nullptr);
+    advance_fronts(sheet, fine, steps, {kLaw, homogeneous}, kEdge, follower ? &*follower : nullptr);
   }
 };
 
@@ -86,8 +87,8 @@ std::size_t marker_count(const FineFront& fine) {
 void expect_sound(const Growth& growth) {
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   EXPECT_EQ(boundary_edges(growth.fine.surface()), marker_count(growth.fine));
-  if (growth.led) {
-    EXPECT_EQ(boundary_edges(growth.led->surface()), marker_count(*growth.led));
+  if (growth.follower) {
+    EXPECT_EQ(boundary_edges(growth.follower->surface()), marker_count(*growth.follower));
   }
   for (const TriMesh* mesh : {&growth.sheet.mesh, &growth.fine.surface()})
     for (std::size_t t = 0; t < mesh->triangle_count(); ++t)
@@ -122,15 +123,15 @@ TEST(FrontJoint, TwoDiscsInOnePlaneBecomeOneCrack) {
     const double exact = united_area(radius, std::hypot(1.8, shift));
     EXPECT_NEAR(surface_area(growth.sheet.mesh) / exact, 1, 0.04);
     EXPECT_NEAR(surface_area(growth.fine.surface()) / exact, 1, 0.04);
-    EXPECT_NEAR(surface_area(growth.led->surface()) / surface_area(growth.fine.surface()), 1, 0.005);
+    EXPECT_NEAR(surface_area(growth.follower->surface()) / surface_area(growth.fine.surface()), 1, 0.005);
     const auto& front = growth.sheet.fronts[0];
     for (const NodeId n : front.nodes)
       EXPECT_EQ(growth.sheet.state[n], FrontState::active);
-    std::map<NodeId, Vec3> rides;
+    std::map<NodeId, Vec3> attached;
     for (const Marker& m : growth.fine.curves()[0].markers)
-      if (m.coarse.valid()) rides.emplace(m.coarse, m.position);
+      if (m.coarse.valid()) attached.emplace(m.coarse, m.position);
     for (const NodeId n : front.nodes)
-      EXPECT_LT((rides.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
+      EXPECT_LT((attached.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
   }
 }
 

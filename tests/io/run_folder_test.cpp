@@ -36,7 +36,7 @@ RunDocument document_of(const std::vector<Fragment>& fragments) {
   d.scene_file = "cube.toml";
   d.scene_text = "[body]\nmodel = \"cube\"  # \"quoted\" \\ and µ\n";
   d.method = "bem";
-  d.stop = "separated";
+  d.stop = StopReason::separated;
   d.frames = 17;
   d.initial_triangles = 120;
   d.final_triangles = 540;
@@ -120,7 +120,7 @@ TEST(RunFolder, WhatWasWrittenComesBack) {
   write_whole_run(scratch / "a/b/run");
   const RunData run = read_run(scratch / "a/b/run");
   EXPECT_EQ(run.document.scene_text, document_of({}).scene_text);
-  EXPECT_EQ(run.document.stop, "separated");
+  EXPECT_EQ(run.document.stop, StopReason::separated);
   EXPECT_EQ(run.document.frames, 17);
   EXPECT_EQ(run.document.hash, "0123456789abcdef");
   ASSERT_TRUE(run.document.body.has_value());

@@ -16,7 +16,7 @@ namespace {
 RunData broken_run() {
   RunData run;
   run.document.method = "bem";
-  run.document.stop = "separated";
+  run.document.stop = StopReason::separated;
   run.document.frames = 5;
   run.crack = sheet(10, 0);
   run.fragments = broken_cube(0);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "conchoid/core/bytes.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "synthetic.hpp"
 
 namespace conchoid {
@@ -76,6 +76,7 @@ TEST(Forest, HoldsForAnotherSizeAndMaterialIfDimensionless) {
     s.toughness *= 1000 * 8;
     s.youngs_modulus *= 1000;
     s.traction *= 1000;
+    s.front_curvature /= 64;
     for (double* length :
          {&s.resolution, &s.distance_before, &s.distance_after, &s.travelled, &s.surface_distance})
       *length *= 64;
@@ -160,11 +161,8 @@ TEST(ForestFile, BringsTheForestBack) {
 
 TEST(ForestFile, HasTheSameBytesForEveryNumberOfThreads) {
   const TemporaryFolder folder;
-  for (const int threads : {1, 2}) {
-    set_thread_count(threads);
-    small_forest().save(folder / std::to_string(threads));
-  }
-  set_thread_count(0);
+  for (const int threads : {1, 2})
+    ExecutionContext(threads).run([&] { small_forest().save(folder / std::to_string(threads)); });
   EXPECT_EQ(read_bytes(folder / "1"), read_bytes(folder / "2"));
 }
 

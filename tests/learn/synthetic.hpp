@@ -37,6 +37,7 @@ inline SampleSet synthetic_run(int run, int frames, int nodes, double growth, do
       s.surface_distance = 0.5 * scale;
       s.K = s.toughness * load *
             Vec3(0.5 + uniform(random), 0.6 * (uniform(random) - 0.5), 0.6 * (uniform(random) - 0.5));
+      s.front_curvature = 2 / scale;
       s.traction = {2e6, 1e5, -1e5};
       Sample next = s;
       next.K = s.K.cwiseProduct(Vec3(growth, kink, 1));

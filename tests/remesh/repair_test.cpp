@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/mesh/winding_number.hpp"
@@ -252,9 +252,7 @@ TEST(Repair, AnyPatternOfPointsHasACleanBoundary) {
 }
 
 TEST(Repair, TheSameBitsForEveryThreadCount) {
-  set_thread_count(1);
-  const TriMesh one = repaired(overlapping_spheres(), 0.1).mesh;
-  set_thread_count(0);
+  const TriMesh one = ExecutionContext(1).run([] { return repaired(overlapping_spheres(), 0.1).mesh; });
   const TriMesh all = repaired(overlapping_spheres(), 0.1).mesh;
   EXPECT_EQ(one.positions, all.positions);
   EXPECT_EQ(one.corners, all.corners);

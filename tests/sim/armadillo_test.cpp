@@ -38,7 +38,7 @@ TEST_P(Armadillo, BreaksIntoPiecesThatKeepTheScan) {
   RunOptions options;
   options.progress = false;
   const RunResult result = run_scene(test::scene_from_text(example_text(scan)), options);
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_GE(result.cracks, 1);
   EXPECT_GE(result.fragments.size(), 2u);
   const TriMesh original = read_mesh(scan.file);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/run.hpp"
 #include "scenes.hpp"
@@ -25,12 +25,9 @@ RunResult run(RunOptions options) {
 }
 
 TEST(Hash, SameForOneThreadAndForTwo) {
-  set_thread_count(1);
-  const RunResult one = run({});
-  set_thread_count(2);
-  const RunResult two = run({});
-  set_thread_count(0);
-  EXPECT_EQ(one.document.stop, "separated");
+  const RunResult one = ExecutionContext(1).run([] { return run({}); });
+  const RunResult two = ExecutionContext(2).run([] { return run({}); });
+  EXPECT_EQ(one.document.stop, StopReason::separated);
   EXPECT_EQ(one.document.hash, two.document.hash);
   EXPECT_EQ(one.document.frames, two.document.frames);
 }
@@ -58,11 +55,11 @@ TEST(Hash, AnotherLoadGivesAnother) {
 
 TEST(Methods, SteadyPredictionEndsAndIsRepeatable) {
   RunOptions options;
-  options.method = Method::steady;
+  options.method = "steady";
   const RunResult result = run(options);
   EXPECT_EQ(result.document.method, "steady");
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested" ||
-              result.document.stop == "frame-limit")
+  EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested ||
+              result.document.stop == StopReason::frame_limit)
       << result.document.stop;
   ASSERT_GE(result.document.timings.size(), 2u);
   EXPECT_EQ(result.document.timings[0].source, "bem");
@@ -80,15 +77,15 @@ TEST(Methods, ForestPredictsFromTheSecondFrameOn) {
       bem.samples, {.trees = 20, .depth = 8, .features = FeatureSet::dimensionless, .seed = 1, .bins = 64},
       {});
   RunOptions options;
-  options.method = Method::forest;
-  options.forest = &forest;
+  options.method = "forest";
+  options.regressor = &forest;
   const RunResult result = run(options);
   ASSERT_GE(result.document.timings.size(), 2u);
   EXPECT_EQ(result.document.timings[0].source, "bem");
   EXPECT_EQ(result.document.timings[1].source, "forest");
   ASSERT_EQ(result.front[0].frame, 1);
   EXPECT_EQ(result.front[0].intensity, bem.front[0].intensity);
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested")
+  EXPECT_TRUE(result.document.stop == StopReason::separated || result.document.stop == StopReason::arrested)
       << result.document.stop;
   EXPECT_GT(result.largest_growth, 0.2);
   EXPECT_EQ(run(options).document.hash, result.document.hash);
@@ -96,7 +93,7 @@ TEST(Methods, ForestPredictsFromTheSecondFrameOn) {
 
 TEST(Methods, ForestIsAskedFor) {
   RunOptions options;
-  options.method = Method::forest;
+  options.method = "forest";
   EXPECT_THROW(run(options), InputError);
 }
 

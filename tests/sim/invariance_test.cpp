@@ -67,7 +67,7 @@ class Invariance : public testing::TestWithParam<Case> {
 
   void expect_same(const Map& map) {
     const RunResult here = run({}, GetParam().pull), there = run(map, GetParam().pull);
-    EXPECT_EQ(here.document.stop, "separated");
+    EXPECT_EQ(here.document.stop, StopReason::separated);
     EXPECT_EQ(here.document.stop, there.document.stop);
     EXPECT_EQ(here.document.frames, there.document.frames);
     EXPECT_EQ(here.cracks, there.cracks);

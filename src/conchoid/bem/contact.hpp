@@ -14,8 +14,7 @@ struct OpeningConstraint {
 };
 
 /// Minimises ½ xᵀPx − fᵀx under the constraints by an active set method, starting from x = P⁻¹f:
-/// (G P⁻¹ Gᵀ) λ = −G P⁻¹ f on the active set, λ ≥ 0.                                       docs/theory.md
-/// (C1)
+/// (G P⁻¹ Gᵀ) λ = −G P⁻¹ f on the active set, λ ≥ 0.                                    docs/theory.md (C1)
 /// @param solve  applies P⁻¹ in place to `count` vectors
 void close_penetrating_faces(std::vector<double>& x, const std::vector<OpeningConstraint>& constraints,
                              const std::function<void(double*, std::size_t)>& solve);

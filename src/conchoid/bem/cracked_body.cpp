@@ -16,28 +16,9 @@
 namespace conchoid {
 namespace {
 
-// y += Aᵀ B for row-major A (k × m), B (k × n), y (m × n).
-void add_transposed_product(const DenseMatrix& a, const DenseMatrix& b, DenseMatrix& y) {
-  for (std::size_t k = 0; k < a.rows; ++k)
-    for (std::size_t i = 0; i < a.columns; ++i) {
-      const double aki = a(k, i);
-      if (aki == 0) continue;
-      for (std::size_t j = 0; j < b.columns; ++j)
-        y(i, j) += aki * b(k, j);
-    }
-}
-
-DenseMatrix transposed(const DenseMatrix& a) {
-  DenseMatrix t(a.columns, a.rows);
-  for (std::size_t i = 0; i < a.rows; ++i)
-    for (std::size_t j = 0; j < a.columns; ++j)
-      t(j, i) = a(i, j);
-  return t;
-}
-
-// A cut function that is in the system.
+// A enrichment function that is in the system.
 struct Member {
-  CutFunctionKind kind;
+  EnrichmentKind kind;
   NodeId node;
   std::vector<double> key;
   DenseMatrix coupling;      // 3 × body unknowns: D_au + K_aᵀ V⁻¹ K
@@ -50,40 +31,31 @@ struct Member {
 }  // namespace
 
 struct CrackedBody::State {
-  TriMesh surface;
-  BoundaryData data;
-  ElasticConstants m;
-  AmbientField ambient;
-  BemSettings settings;
+  std::shared_ptr<const BodyOperator> body;
+  LoadCase load;
   RowStore* store = nullptr;
-  PairIntegrator integrator;
-  BodyBlocks body;
-  BorderedCholesky V;         // of the single layer
-  DenseMatrix VinvK;          // V⁻¹ K
-  std::vector<double> VinvF;  // V⁻¹ f_D
-  std::vector<double> load;   // of the body: f_N − Kᵀ V⁻¹ f_D
-  BorderedCholesky P;         // of the Schur complement D + Kᵀ V⁻¹ K, body first, then members in order
+  std::vector<double> VinvF;      // V⁻¹ f_D
+  std::vector<double> body_load;  // f_N − Kᵀ V⁻¹ f_D
+  BorderedCholesky P;  // of the Schur complement D + Kᵀ V⁻¹ K, body first, then members in order
   std::vector<Member> members;
   DenseMatrix among;         // 3·members square: D_aa + K_aᵀ V⁻¹ K_a
   std::size_t factored = 0;  // members eliminated in P
-  CutSpace space;
+  EnrichedSpace space;
   std::vector<std::size_t> member_of;  // per function of space
   std::size_t cut_nodes = 0;
   std::vector<double> solution;
   IdVector<NodeId, Vec3> opening;
   AppendStatistics statistics;
 
-  State(TriMesh s, BoundaryData d, const ElasticConstants& constants, AmbientField a, const BemSettings& b)
-      : surface(std::move(s)),
-        data(std::move(d)),
-        m(constants),
-        ambient(std::move(a)),
-        settings(b),
-        integrator(b.quadrature_tolerance),
-        body(assemble_body(surface, data, m, integrator)) {
-    factor_body();
-    space = make_cut_space(whole_surface(surface), surface, data);
+  State(std::shared_ptr<const BodyOperator> b, LoadCase l)
+      : body(std::move(b)),
+        P(body->schur_factor()),
+        space(make_enriched_space(whole_surface(surface()), surface(), body->kinds())) {
+    set_load(std::move(l));
   }
+
+  const TriMesh& surface() const { return body->surface(); }
+  const Unknowns& unknowns() const { return body->blocks().unknowns; }
 
   Vec3 coefficient(std::size_t member) const {
     return Eigen::Map<const Vec3>(&solution[body_size() + 3 * member]);
@@ -91,62 +63,48 @@ struct CrackedBody::State {
 
   // Displacement the elements compute (without the ambient field).
   IdVector<NodeId, Vec3> computed_displacement() const {
-    IdVector<NodeId, Vec3> u = data.displacement;
+    IdVector<NodeId, Vec3> u = load.displacement;
     for (std::size_t i = 0; i < u.size(); ++i)
-      if (const int at = body.unknowns.displacement[i]; at >= 0)
+      if (const int at = unknowns().displacement[i]; at >= 0)
         u[NodeId(i)] = Eigen::Map<const Vec3>(&solution[3 * static_cast<std::size_t>(at)]);
     return u;
   }
 
   std::vector<Vec3> computed_traction() const;
 
-  std::size_t body_size() const { return 3 * body.unknowns.displacement_count; }
+  std::size_t body_size() const { return 3 * unknowns().displacement_count; }
 
-  void factor_body() {
-    if (!V.append({}, body.V.data))
-      throw ComputationError(
-          "the single layer matrix is not positive definite: the surface mesh has overlapping or "
-          "nearly degenerate triangles; run `conchoid mesh` on it and remesh");
-    DenseMatrix columns = transposed(body.K);  // each row one column of K
-    if (body.V.rows > 0) V.solve(columns.data.data(), columns.rows);
-    VinvK = transposed(columns);
-    VinvF = body.f_D;
-    V.solve(VinvF.data());
-    load = body.f_N;
-    for (std::size_t q = 0; q < body.K.rows; ++q)
-      for (std::size_t i = 0; i < load.size(); ++i)
-        load[i] -= body.K(q, i) * VinvF[q];
-    DenseMatrix schur = body.D;
-    add_transposed_product(body.K, VinvK, schur);
-    hold_rigid_motions(schur);
-    if (!P.append({}, schur.data))
-      throw ComputationError(
-          "the body's stiffness is not positive definite: the surface mesh has overlapping or nearly "
-          "degenerate triangles; run `conchoid mesh` on it and remesh");
-  }
-
-  // D annihilates rigid motions; adding α r rᵀ for each makes it definite and leaves balanced solutions
-  // unchanged.
-  void hold_rigid_motions(DenseMatrix& schur) const {
-    double trace = 0;
-    for (std::size_t i = 0; i < schur.rows; ++i)
-      trace += schur(i, i);
-    const double alpha = trace / static_cast<double>(std::max<std::size_t>(schur.rows, 1));
-    for (const auto& motion : floating_motions(surface, data)) {
-      std::vector<double> r(schur.rows, 0.0);
-      for (std::size_t i = 0; i < surface.node_count(); ++i)
-        if (const int at = body.unknowns.displacement[i]; at >= 0)
-          std::copy_n(&motion[3 * i], 3, &r[3 * static_cast<std::size_t>(at)]);
-      for (std::size_t i = 0; i < schur.rows; ++i)
-        if (r[i] != 0)
-          for (std::size_t j = 0; j < schur.columns; ++j)
-            schur(i, j) += alpha * r[i] * r[j];
-    }
-  }
-
+  void set_load(LoadCase wanted);
+  void reduce_load(Member& member) const;
   void replace_members();
   void eliminate_members();
 };
+
+void CrackedBody::State::set_load(LoadCase wanted) {
+  BodyLoad f = body->load(wanted);
+  load = std::move(wanted);
+  VinvF = std::move(f.f_D);
+  body->solve_single_layer(VinvF.data());
+  body_load = std::move(f.f_N);
+  const DenseMatrix& K = body->blocks().K;
+  for (std::size_t q = 0; q < K.rows; ++q)
+    for (std::size_t i = 0; i < body_load.size(); ++i)
+      body_load[i] -= K(q, i) * VinvF[q];
+  if (members.empty()) return;
+  const std::vector<Vec3> loads = assemble_enrichment_loads({*body, load}, space);
+  for (std::size_t f = 0; f < loads.size(); ++f) {
+    Member& member = members[member_of[f]];
+    member.load = loads[f];
+    reduce_load(member);
+  }
+}
+
+// f_a − K_aᵀ V⁻¹ f_D
+void CrackedBody::State::reduce_load(Member& member) const {
+  for (std::size_t q = 0; q < member.K.rows; ++q)
+    for (int p = 0; p < 3; ++p)
+      member.load[p] -= member.K(q, p) * VinvF[q];
+}
 
 // Functions with a known key keep their rows, in the order they had; new ones come after them.
 void CrackedBody::State::replace_members() {
@@ -180,19 +138,16 @@ void CrackedBody::State::replace_members() {
         for (int q = 0; q < 3; ++q)
           now_among(3 * i + p, 3 * j + q) = among(3 * old_position[i] + p, 3 * old_position[j] + q);
   }
-  const CutProblem problem{surface, data, m, ambient, body, integrator};
-  std::vector<CutRows> rows = stored_cut_rows(problem, space, wanted, store);
+  std::vector<EnrichmentRows> rows = stored_rows({*body, load}, space, wanted, store);
   for (std::size_t w = 0; w < wanted.size(); ++w) {
-    const CutFunction& f = space.functions[wanted[w]];
+    const EnrichmentFunction& f = space.functions[wanted[w]];
     Member member{f.kind, f.node,       f.key, std::move(rows[w].D_body), std::move(rows[w].K),
                   {},     rows[w].load, {}};
     DenseMatrix columns = transposed(member.K);
-    if (body.V.rows > 0) V.solve(columns.data.data(), 3);
+    body->solve_single_layer(columns.data.data(), 3);
     member.VinvK = transposed(columns);
-    add_transposed_product(member.K, VinvK, member.coupling);
-    for (std::size_t q = 0; q < member.K.rows; ++q)
-      for (int p = 0; p < 3; ++p)
-        member.load[p] -= member.K(q, p) * VinvF[q];
+    add_transposed_product(member.K, body->VinvK(), member.coupling);
+    reduce_load(member);
     for (const PanelValues& v : f.support)
       if (v.panel >= space.surface_count)
         member.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
@@ -204,7 +159,7 @@ void CrackedBody::State::replace_members() {
       DenseMatrix block(3, 3);
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
-          block(p, q) = rows[w].D_cut(p, 3 * order[j] + q);
+          block(p, q) = rows[w].D_enriched(p, 3 * order[j] + q);
       add_transposed_product(now[kept + w].K, now[j].VinvK, block);
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q) {
@@ -233,15 +188,14 @@ void CrackedBody::State::eliminate_members() {
     std::copy_n(row + 3 * factored, count, diagonal.data() + i * count);
   }
   if (!P.append(coupling, diagonal))
-    throw ComputationError(
+    throw SingularSystem(
         "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
         "touches itself");
   factored = members.size();
 }
 
-CrackedBody::CrackedBody(TriMesh surface, BoundaryData data, const ElasticConstants& m, AmbientField ambient,
-                         const BemSettings& settings)
-    : state_(std::make_unique<State>(std::move(surface), std::move(data), m, std::move(ambient), settings)) {}
+CrackedBody::CrackedBody(std::shared_ptr<const BodyOperator> body, LoadCase load)
+    : state_(std::make_unique<State>(std::move(body), std::move(load))) {}
 CrackedBody::~CrackedBody() = default;
 CrackedBody::CrackedBody(CrackedBody&&) noexcept = default;
 CrackedBody& CrackedBody::operator=(CrackedBody&&) noexcept = default;
@@ -252,27 +206,39 @@ void CrackedBody::keep_rows(RowStore* store) {
 
 void CrackedBody::set_crack(const CutComplex& cut) {
   state_->cut_nodes = cut.positions.size();
-  state_->space = make_cut_space(cut, state_->surface, state_->data);
+  state_->space = make_enriched_space(cut, state_->surface(), state_->body->kinds());
   state_->replace_members();
   state_->eliminate_members();
 }
 
+void CrackedBody::set_load(LoadCase load) {
+  state_->set_load(std::move(load));
+}
+
+const BodyOperator& CrackedBody::body() const {
+  return *state_->body;
+}
+
+const LoadCase& CrackedBody::load() const {
+  return state_->load;
+}
+
 void CrackedBody::solve() {
   State& s = *state_;
-  s.solution = s.load;
+  s.solution = s.body_load;
   std::vector<OpeningConstraint> constraints;
   for (const Member& member : s.members) {
-    if (member.kind != CutFunctionKind::ripple) constraints.push_back({s.solution.size(), member.normal});
+    if (member.kind != EnrichmentKind::hat) constraints.push_back({s.solution.size(), member.normal});
     for (int p = 0; p < 3; ++p)
       s.solution.push_back(member.load[p]);
   }
   s.P.solve(s.solution.data());
-  if (s.settings.contact)
+  if (s.body->settings().contact)
     close_penetrating_faces(s.solution, constraints,
                             [&](double* b, std::size_t count) { s.P.solve(b, count); });
   s.opening.assign(s.cut_nodes, Vec3::Zero());
   for (std::size_t i = 0; i < s.members.size(); ++i)
-    if (s.members[i].kind != CutFunctionKind::ripple) s.opening[s.members[i].node] = s.coefficient(i);
+    if (s.members[i].kind != EnrichmentKind::hat) s.opening[s.members[i].node] = s.coefficient(i);
 }
 
 const IdVector<NodeId, Vec3>& CrackedBody::opening() const {
@@ -282,25 +248,25 @@ const IdVector<NodeId, Vec3>& CrackedBody::opening() const {
 IdVector<NodeId, Vec3> CrackedBody::displacement() const {
   const State& s = *state_;
   IdVector<NodeId, Vec3> u = s.computed_displacement();
-  if (s.ambient.displacement)
+  if (s.load.ambient.displacement)
     for (std::size_t i = 0; i < u.size(); ++i)
-      u[NodeId(i)] += s.ambient.displacement(s.surface.positions[NodeId(i)]);
+      u[NodeId(i)] += s.load.ambient.displacement(s.surface().positions[NodeId(i)]);
   return u;
 }
 
 // q = V⁻¹ (f_D + K u + K_a a)
 std::vector<Vec3> CrackedBody::State::computed_traction() const {
-  std::vector<Vec3> t = data.traction;
+  std::vector<Vec3> t = load.traction;
   std::vector<double> q = VinvF;
   for (std::size_t i = 0; i < q.size(); ++i) {
     for (std::size_t j = 0; j < body_size(); ++j)
-      q[i] += VinvK(i, j) * solution[j];
+      q[i] += body->VinvK()(i, j) * solution[j];
     for (std::size_t a = 0; a < members.size(); ++a)
       for (int p = 0; p < 3; ++p)
         q[i] += members[a].VinvK(i, p) * coefficient(a)[p];
   }
   for (std::size_t x = 0; x < t.size(); ++x)
-    if (const int at = body.unknowns.traction[x]; at >= 0)
+    if (const int at = unknowns().traction[x]; at >= 0)
       t[x] = Eigen::Map<const Vec3>(&q[3 * static_cast<std::size_t>(at)]);
   return t;
 }
@@ -308,9 +274,9 @@ std::vector<Vec3> CrackedBody::State::computed_traction() const {
 std::vector<Vec3> CrackedBody::traction() const {
   const State& s = *state_;
   std::vector<Vec3> t = s.computed_traction();
-  if (s.ambient.stress)
+  if (s.load.ambient.stress)
     for (std::size_t x = 0; x < t.size(); ++x)
-      t[x] += s.ambient.stress(s.body.panels[x].center) * s.body.panels[x].normal;
+      t[x] += s.load.ambient.stress(s.body->blocks().panels[x].center) * s.body->blocks().panels[x].normal;
   return t;
 }
 
@@ -324,7 +290,7 @@ std::vector<LoadedPanel> CrackedBody::loaded_panels() const {
     LoadedPanel p{s.space.panels[x], Vec3::Zero(), {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
     if (x < s.space.surface_count) {
       p.traction = t[s.space.parent[x].index()];
-      const auto& nodes = s.surface.corners[s.space.parent[x]];
+      const auto& nodes = s.surface().corners[s.space.parent[x]];
       for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
           p.density[k] += s.space.parent_values[x][k][j] * u[nodes[j]];
@@ -340,21 +306,21 @@ std::vector<LoadedPanel> CrackedBody::loaded_panels() const {
 
 std::vector<Mat3> CrackedBody::surface_stress() const {
   const State& s = *state_;
-  std::vector<Mat3> stress(s.surface.triangle_count(), Mat3::Zero());
+  std::vector<Mat3> stress(s.surface().triangle_count(), Mat3::Zero());
   const std::vector<LoadedPanel> panels = loaded_panels();
   for (std::size_t x = 0; x < s.space.surface_count; ++x) {
     const std::size_t parent = s.space.parent[x].index();
     const Panel& p = panels[x].panel;
-    Mat3 value = conchoid::surface_stress(p.x, panels[x].density, panels[x].traction, s.m);
-    if (s.ambient.stress) value += s.ambient.stress(p.center);
-    stress[parent] += p.area / s.body.panels[parent].area * value;
+    Mat3 value = conchoid::surface_stress(p.x, panels[x].density, panels[x].traction, s.body->material());
+    if (s.load.ambient.stress) value += s.load.ambient.stress(p.center);
+    stress[parent] += p.area / s.body->blocks().panels[parent].area * value;
   }
   return stress;
 }
 
 Mat3 CrackedBody::interior_stress(const Vec3& x) const {
-  const Mat3 computed = conchoid::interior_stress(x, loaded_panels(), state_->m);
-  return state_->ambient.stress ? Mat3(computed + state_->ambient.stress(x)) : computed;
+  const Mat3 computed = conchoid::interior_stress(x, loaded_panels(), state_->body->material());
+  return state_->load.ambient.stress ? Mat3(computed + state_->load.ambient.stress(x)) : computed;
 }
 
 std::vector<CrackFaceStress> CrackedBody::crack_face_stress(const std::vector<TriId>& pieces) const {
@@ -368,17 +334,18 @@ std::vector<CrackFaceStress> CrackedBody::crack_face_stress(const std::vector<Tr
       const Panel& p = face.panel;
       const Vec3 off = off_the_face * std::sqrt(2 * p.area) * p.normal;
       const auto mean_at = [&](double times) -> Mat3 {
-        return 0.5 * (conchoid::interior_stress(p.center + times * off, panels, s.m) +
-                      conchoid::interior_stress(p.center - times * off, panels, s.m));
+        return 0.5 * (conchoid::interior_stress(p.center + times * off, panels, s.body->material()) +
+                      conchoid::interior_stress(p.center - times * off, panels, s.body->material()));
       };
       Mat3 base = 2 * mean_at(1) - mean_at(2);
-      if (s.ambient.stress) base += s.ambient.stress(p.center);
-      const Mat3 strain = strain_of(base, s.m);
+      if (s.load.ambient.stress) base += s.load.ambient.stress(p.center);
+      const Mat3 strain = strain_of(base, s.body->material());
       for (const double side : {1.0, -1.0}) {
         std::array<Vec3, 3> u;
         for (int k = 0; k < 3; ++k)
           u[k] = strain * (p.x[k] - p.center) - 0.5 * side * face.density[k];
-        (side > 0 ? out[i].plus : out[i].minus) = conchoid::surface_stress(p.x, u, base * p.normal, s.m);
+        (side > 0 ? out[i].plus : out[i].minus) =
+            conchoid::surface_stress(p.x, u, base * p.normal, s.body->material());
       }
     }
   });
@@ -391,11 +358,17 @@ const AppendStatistics& CrackedBody::statistics() const {
 
 double CrackedBody::energy() const {
   const State& s = *state_;
-  double work = std::inner_product(s.load.begin(), s.load.end(), s.solution.begin(), 0.0);
+  double work = std::inner_product(s.body_load.begin(), s.body_load.end(), s.solution.begin(), 0.0);
   for (std::size_t i = 0; i < s.members.size(); ++i)
     for (int p = 0; p < 3; ++p)
       work += s.members[i].load[p] * s.solution[s.body_size() + 3 * i + p];
   return 0.5 * work;
+}
+
+CrackedBody make_cracked_body(TriMesh surface, const BoundaryData& data, const ElasticConstants& m,
+                              AmbientField ambient, const BemSettings& settings) {
+  LoadCase load = load_case(surface, data, std::move(ambient));
+  return CrackedBody(make_body_operator(std::move(surface), data, m, settings), std::move(load));
 }
 
 CutComplex uncut_sheet(const TriMesh& sheet) {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "conchoid/bem/boundary.hpp"
+#include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/interior_stress.hpp"
 #include "conchoid/elastic/constants.hpp"
 #include "conchoid/intersect/corefine.hpp"
@@ -12,11 +12,6 @@ namespace conchoid {
 
 class RowStore;
 
-struct BemSettings {
-  double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
-  bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
-};
-
 /// Stress [Pa] in the two faces of a crack; its traction part is the same in both.
 struct CrackFaceStress {
   Mat3 plus, minus;  ///< on the side the crack's normal points to, and on the other
@@ -24,28 +19,28 @@ struct CrackFaceStress {
 
 /// What the last set_crack() had to do.
 struct AppendStatistics {
-  std::size_t functions = 0;   ///< cut functions in the system
+  std::size_t functions = 0;   ///< enrichment functions in the system
   std::size_t assembled = 0;   ///< of these, assembled anew
   std::size_t refactored = 0;  ///< of these, eliminated anew
 };
 
-/// An elastic body with cracks, by the symmetric Galerkin boundary element method. docs/theory.md §2–4 The
-/// body is assembled and factored once, on construction; a crack adds unknowns at the end of the system, and
-/// when it grows only what is new is assembled: functions whose support did not change are recognised and
-/// kept.
+/// An elastic body with cracks under a load, by the symmetric Galerkin boundary element method
+/// (docs/theory.md §2–4).
+/// The uncracked body is a BodyOperator, which many cracked bodies may share. A crack adds unknowns at the end
+/// of its system, and when it grows only what is new is assembled: functions whose support did not change are
+/// recognised and kept.
 ///
-///   CrackedBody body(surface, data, material, {}, {});
-///   body.set_crack(corefine(surface, sheet, {.merge = 0.1}));
-///   body.solve();
-///   body.opening()[node]                 // Δu = u⁺ − u⁻ at the nodes of the cut complex
+///   auto body = make_body_operator(surface, data, material);
+///   CrackedBody cracked(body, load_case(surface, data));
+///   cracked.set_crack(corefine(surface, sheet, {.merge = 0.1}));
+///   cracked.solve();
+///   cracked.opening()[node]              // Δu = u⁺ − u⁻ at the nodes of the cut complex
+///   cracked.set_load(another);           // no matrix is touched
+///   cracked.solve();
 class CrackedBody {
  public:
-  /// @param surface  closed, outward; empty for an unbounded body (then `ambient` is the stress at infinity)
-  /// @param ambient  stress superposed on what the elements compute; its traction is already taken off `data`
-  /// Errors: ComputationError when the system is singular (a body that is not held and not balanced is
-  /// refused before).
-  CrackedBody(TriMesh surface, BoundaryData data, const ElasticConstants& m, AmbientField ambient = {},
-              const BemSettings& settings = {});
+  /// A body without a crack. Errors: InputError when the load does not fit the operator.
+  CrackedBody(std::shared_ptr<const BodyOperator> body, LoadCase load);
   ~CrackedBody();
   CrackedBody(CrackedBody&&) noexcept;
   CrackedBody& operator=(CrackedBody&&) noexcept;
@@ -55,7 +50,13 @@ class CrackedBody {
   void keep_rows(RowStore* store);
   /// Replaces the crack. Errors: ComputationError when a piece has come off (the system has become singular).
   void set_crack(const CutComplex& cut);
+  /// Replaces the load, on body and crack; call solve() before anything is read. Errors: InputError when it
+  /// does not fit; the load is then as before.
+  void set_load(LoadCase load);
   void solve();
+
+  const BodyOperator& body() const;
+  const LoadCase& load() const;
 
   /// Full opening Δu [m] per node of the cut complex; zero on the front and off the crack.
   const IdVector<NodeId, Vec3>& opening() const;
@@ -82,6 +83,10 @@ class CrackedBody {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Operator and load of a body that is used once.
+CrackedBody make_cracked_body(TriMesh surface, const BoundaryData& data, const ElasticConstants& m,
+                              AmbientField ambient = {}, const BemSettings& settings = {});
 
 /// A cut complex for a crack in an unbounded body: the sheet alone.
 CutComplex uncut_sheet(const TriMesh& sheet);

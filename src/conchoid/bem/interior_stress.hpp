@@ -16,8 +16,8 @@ struct LoadedPanel {
 };
 
 /// Stress at an inner point by differentiating the representation formula (Somigliana's identity):
-/// σ_ij(x) = ∫ D_kij(x,y) t_k(y) − ∫ S_kij(x,y) w_k(y)                                      docs/theory.md
-/// (T2) Panels are halved until they are small against their distance from x; x must not lie on a panel.
+/// σ_ij(x) = ∫ D_kij(x,y) t_k(y) − ∫ S_kij(x,y) w_k(y)                                 docs/theory.md (T2)
+/// Panels are halved until they are small against their distance from x; x must not lie on a panel.
 Mat3 interior_stress(const Vec3& x, const std::vector<LoadedPanel>& panels, const ElasticConstants& m);
 
 }  // namespace conchoid

@@ -6,8 +6,8 @@
 namespace conchoid {
 
 /// Notation: V single layer, K double layer, D hypersingular. A P1 shape function φ on a panel enters through
-/// its surface curl c = n × ∇φ [1/m], constant per panel; the tangential derivatives of φ are M_ij φ =
-/// ([c]×)_ij.   docs/theory.md (B2)
+/// its surface curl c = n × ∇φ [1/m], constant per panel; its tangential derivatives are M_ij φ = ([c]×)_ij.
+///                                                                                     docs/theory.md (B2)
 
 /// Surface curls of the three corner functions of a panel.
 std::array<Vec3, 3> surface_curls(const Panel& p);
@@ -21,13 +21,12 @@ class PairBlocks {
   /// ∫∫ U, the block of V between constant tractions.                                     docs/theory.md (B3)
   const Mat3& single_layer() const { return kelvin_; }
 
-  /// <D φ_a e_q, φ_b e_p> for shape functions with curls b (test, on X) and a (trial, on Y).  docs/theory.md
-  /// (B4)
+  /// <D φ_a e_q, φ_b e_p> for shape functions with curls b (test, on X) and a (trial, on Y).
+  ///                                                                                   docs/theory.md (B4)
   Mat3 hypersingular(const Vec3& b, const Vec3& a) const;
 
-  /// <K φ_a e_q, e_p>: constant test on X, trial with curl a and Laplace double layer value dl = Σ
-  /// φ_a(corner) DL on Y.
-  ///                                                                                      docs/theory.md (B5)
+  /// <K φ_a e_q, e_p>: constant test on X, trial on Y with curl a; dl is the Laplace double layer of φ_a,
+  /// Σ φ_a(corner) DL.                                                                 docs/theory.md (B5)
   Mat3 double_layer(const Vec3& a, double dl) const;
 
  private:

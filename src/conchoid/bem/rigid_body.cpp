@@ -108,7 +108,8 @@ void add_motions(const TriMesh& surface, const std::vector<std::size_t>& nodes,
 
 }  // namespace
 
-std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const BoundaryData& data) {
+std::vector<std::vector<double>> floating_motions(const TriMesh& surface,
+                                                  const std::vector<BoundaryKind>& kinds) {
   const std::vector<int> part = connected_parts(surface);
   std::vector<std::vector<std::size_t>> nodes;
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -117,7 +118,7 @@ std::vector<std::vector<double>> floating_motions(const TriMesh& surface, const 
   }
   std::vector<char> held(nodes.size(), 0);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-    if (data.kind[t] == BoundaryKind::displacement) held[part[surface.corners[TriId(t)][0].index()]] = 1;
+    if (kinds[t] == BoundaryKind::displacement) held[part[surface.corners[TriId(t)][0].index()]] = 1;
   std::vector<std::vector<double>> modes;
   for (std::size_t p = 0; p < nodes.size(); ++p)
     if (!held[p]) add_motions(surface, nodes[p], modes);

@@ -7,22 +7,22 @@
 namespace conchoid {
 namespace {
 
-std::string name_of(const CutSpace& space, const std::vector<std::size_t>& wanted) {
+std::string name_of(const EnrichedSpace& space, const std::vector<std::size_t>& wanted) {
   ContentHash hash;
-  for (const CutFunction& f : space.functions)
+  for (const EnrichmentFunction& f : space.functions)
     hash.add(std::span<const double>(f.key));
   for (std::size_t w : wanted)
     hash.add(static_cast<std::uint64_t>(w));
   return hash.hex();
 }
 
-bool fits(const std::vector<CutRows>& rows, const CutProblem& problem, const CutSpace& space,
-          std::size_t wanted) {
+bool fits(const std::vector<EnrichmentRows>& rows, const EnrichmentProblem& problem,
+          const EnrichedSpace& space, std::size_t wanted) {
   if (rows.size() != wanted) return false;
-  const Unknowns& unknowns = problem.body.unknowns;
-  for (const CutRows& r : rows)
-    if (r.D_body.rows != 3 || r.D_body.columns != 3 * unknowns.displacement_count || r.D_cut.rows != 3 ||
-        r.D_cut.columns != 3 * space.functions.size() || r.K.rows != 3 * unknowns.traction_count ||
+  const Unknowns& unknowns = problem.body.blocks().unknowns;
+  for (const EnrichmentRows& r : rows)
+    if (r.D_body.rows != 3 || r.D_body.columns != 3 * unknowns.displacement_count || r.D_enriched.rows != 3 ||
+        r.D_enriched.columns != 3 * space.functions.size() || r.K.rows != 3 * unknowns.traction_count ||
         r.K.columns != 3)
       return false;
   return true;
@@ -30,13 +30,13 @@ bool fits(const std::vector<CutRows>& rows, const CutProblem& problem, const Cut
 
 }  // namespace
 
-std::vector<CutRows> stored_cut_rows(const CutProblem& problem, const CutSpace& space,
-                                     const std::vector<std::size_t>& wanted, RowStore* store) {
-  if (!store || wanted.empty()) return assemble_cut_rows(problem, space, wanted);
+std::vector<EnrichmentRows> stored_rows(const EnrichmentProblem& problem, const EnrichedSpace& space,
+                                        const std::vector<std::size_t>& wanted, RowStore* store) {
+  if (!store || wanted.empty()) return assemble_enrichment_rows(problem, space, wanted);
   const std::string name = name_of(space, wanted);
   if (auto known = store->recall(name); known && fits(*known, problem, space, wanted.size()))
     return std::move(*known);
-  std::vector<CutRows> rows = assemble_cut_rows(problem, space, wanted);
+  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(problem, space, wanted);
   store->keep(name, rows);
   return rows;
 }

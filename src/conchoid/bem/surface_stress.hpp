@@ -6,8 +6,8 @@
 namespace conchoid {
 
 /// Stress on a flat surface triangle from the displacement of its corners and the traction on it [Pa].
-/// In the plane: σ_ab = 2μ (ε_ab + ν/(1−ν) ε_cc δ_ab) + ν/(1−ν) t_n δ_ab; out of it σ·n = t. docs/theory.md
-/// (T1)
+/// In the plane: σ_ab = 2μ (ε_ab + ν/(1−ν) ε_cc δ_ab) + ν/(1−ν) t_n δ_ab; out of it σ·n = t.
+///                                                                                     docs/theory.md (T1)
 /// @param u  corner displacements [m];  t  traction σ·n [Pa];  n from the corners' order
 Mat3 surface_stress(const Triangle& x, const std::array<Vec3, 3>& u, const Vec3& t,
                     const ElasticConstants& m);

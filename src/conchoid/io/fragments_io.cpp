@@ -8,6 +8,7 @@
 #include "conchoid/core/numbers.hpp"
 #include "conchoid/formats/ply.hpp"
 #include "conchoid/io/colors.hpp"
+#include "conchoid/io/level_set.hpp"
 #include "conchoid/surface/convex_hull.hpp"
 #include "conchoid/surface/corner_normals.hpp"
 
@@ -76,6 +77,7 @@ FragmentFormats formats_from_names(const std::vector<std::string>& names, const 
     if (std::none_of(std::begin(named_formats), std::end(named_formats),
                      [&](const NamedFormat& f) { return f.name == name; }))
       throw InputError(where + ": format '" + name + "' is not known; choose from " + all);
+  if (formats.vdb) require_level_sets(where);
   return formats;
 }
 

@@ -1,5 +1,3 @@
-#include <unordered_map>
-
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -12,9 +10,8 @@ SifSettings sif_settings(const RunSpec& run) {
   return s;
 }
 
-BemOpening::BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
-                       const BemSettings& bem)
-    : body_(setup.surface, setup.data, m, setup.ambient, bem), m_(m), sif_(sif) {}
+BemOpening::BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif)
+    : body_(std::move(body), std::move(load)), m_(body_.body().material()), sif_(sif) {}
 
 void BemOpening::solve(const CutComplex& cut) {
   body_.set_crack(cut);
@@ -23,7 +20,8 @@ void BemOpening::solve(const CutComplex& cut) {
 
 std::vector<FrontOpening> BemOpening::open(const CrackState& crack) {
   solve(crack.cut);
-  std::unordered_map<NodeId, Vec3> intensity;  // per node of the cut complex
+  // Per node of the cut complex; zero at points that no front of the trimmed crack goes through.
+  IdVector<NodeId, Vec3> intensity(crack.cut.positions.size(), Vec3::Zero());
   for (const Front& front : crack.fronts) {
     const std::vector<Vec3> K = stress_intensities(crack.trimmed, front, body_.opening(), m_, sif_);
     for (std::size_t i = 0; i < K.size(); ++i)

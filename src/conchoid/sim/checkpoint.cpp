@@ -67,9 +67,9 @@ void Checkpoint::finish(int frame) {
   for (const Record& record : records_) {
     out.put_text(record.name);
     out.put(static_cast<std::uint64_t>(record.rows.size()));
-    for (const CutRows& rows : record.rows) {
+    for (const EnrichmentRows& rows : record.rows) {
       put(out, rows.D_body);
-      put(out, rows.D_cut);
+      put(out, rows.D_enriched);
       put(out, rows.K);
       for (int p = 0; p < 3; ++p)
         out.put(rows.load[p]);
@@ -98,9 +98,9 @@ std::vector<Checkpoint::Record> Checkpoint::read(int frame) const {
     for (Record& record : records) {
       record.name = in.get_text();
       record.rows.resize(in.get<std::uint64_t>());
-      for (CutRows& rows : record.rows) {
+      for (EnrichmentRows& rows : record.rows) {
         rows.D_body = get_matrix(in);
-        rows.D_cut = get_matrix(in);
+        rows.D_enriched = get_matrix(in);
         rows.K = get_matrix(in);
         for (int p = 0; p < 3; ++p)
           rows.load[p] = in.get<double>();
@@ -131,12 +131,12 @@ void Checkpoint::remove() {
   remove_from(1);
 }
 
-std::optional<std::vector<CutRows>> Checkpoint::recall(const std::string& name) {
+std::optional<std::vector<EnrichmentRows>> Checkpoint::recall(const std::string& name) {
   if (next_ >= records_.size() || records_[next_].name != name) return std::nullopt;
   return std::move(records_[next_++].rows);
 }
 
-void Checkpoint::keep(const std::string& name, const std::vector<CutRows>& rows) {
+void Checkpoint::keep(const std::string& name, const std::vector<EnrichmentRows>& rows) {
   records_.push_back({name, rows});
   next_ = records_.size();
 }

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/box.hpp"
 
 namespace conchoid {
 namespace {
 
-constexpr double kGrazing = 0.2;  // sine of the angle to a face below which a path runs along it, not into it
-
 // Where the path passes through the triangle, as a fraction of the path.
 std::optional<double> crossing(const Vec3& from, const Vec3& to, const Triangle& t) {
   const Vec3 d = to - from, n = area_vector2(t[0], t[1], t[2]);
   const double along = d.dot(n);
-  if (std::abs(along) <= kGrazing * d.norm() * n.norm()) return {};
+  if (std::abs(along) <= kGrazingSine * d.norm() * n.norm()) return {};
   const double s = n.dot(t[0] - from) / along;
   if (!(s >= 0 && s <= 1)) return {};
   const Vec3 x = from + s * d;

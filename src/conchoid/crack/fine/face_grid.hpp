@@ -27,7 +27,7 @@ class FaceGrid {
     int part;
     double fraction;  ///< of the path, 0 … 1
   };
-  /// First triangle that the path from → to passes through at more than kGrazing to its plane and that has
+  /// First triangle that the path from → to passes through at more than kGrazingSine to its plane and that has
   /// none of the nodes of `own`, sorted. Of triangles met at the same place the one with the lowest id.
   std::optional<Hit> first_hit(const TriMesh& mesh, const Vec3& from, const Vec3& to,
                                const std::vector<NodeId>& own) const;

@@ -1,0 +1,224 @@
+#include "conchoid/bem/enrichment.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace conchoid {
+namespace {
+
+using Corners = std::array<NodeId, 3>;
+
+std::array<double, 3> unit_value(const Corners& c, NodeId node, double value) {
+  return {c[0] == node ? value : 0.0, c[1] == node ? value : 0.0, c[2] == node ? value : 0.0};
+}
+
+int corner_of(const Corners& c, NodeId node) {
+  return c[0] == node ? 0 : c[1] == node ? 1 : 2;
+}
+
+// The parent's three corner functions at a point of its plane.
+Vec3 barycentric(const Triangle& parent, const Vec3& x) {
+  const Vec3 n = area_vector2(parent[0], parent[1], parent[2]);
+  const double scale = 1 / n.squaredNorm();
+  Vec3 b;
+  for (int k = 0; k < 3; ++k)
+    b[k] = n.dot(cross(parent[(k + 1) % 3] - x, parent[(k + 2) % 3] - x)) * scale;
+  return b;
+}
+
+// Triangles around nodes, and edges with the triangles that run along them in either direction.
+class Star {
+ public:
+  explicit Star(const IdVector<TriId, Corners>& corners) {
+    for (std::size_t t = 0; t < corners.size(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Corners& c = corners[TriId(t)];
+        around_[c[k]].push_back(t);
+        along_[{c[k], c[(k + 1) % 3]}] = t;
+      }
+  }
+  const std::vector<std::size_t>& around(NodeId node) const {
+    static const std::vector<std::size_t> none;
+    const auto found = around_.find(node);
+    return found == around_.end() ? none : found->second;
+  }
+  /// Triangle that has a→b among its counter-clockwise edges, or −1.
+  long along(NodeId a, NodeId b) const {
+    const auto found = along_.find({a, b});
+    return found == along_.end() ? -1 : static_cast<long>(found->second);
+  }
+
+ private:
+  std::map<NodeId, std::vector<std::size_t>> around_;
+  std::map<std::pair<NodeId, NodeId>, std::size_t> along_;
+};
+
+class SpaceBuilder {
+ public:
+  SpaceBuilder(const CutComplex& cut, const TriMesh& surface, const std::vector<BoundaryKind>& kinds)
+      : cut_(cut), surface_(surface), kinds_(kinds), surface_star_(cut.surface), crack_star_(cut.sheet) {}
+
+  EnrichedSpace build() {
+    add_panels();
+    classify_nodes();
+    for (std::size_t i = 0; i < cut_.positions.size(); ++i)
+      add_functions(NodeId(i));
+    for (EnrichmentFunction& f : out_.functions)
+      make_key(f);
+    return std::move(out_);
+  }
+
+ private:
+  Triangle geometry(const Corners& c) const {
+    return {cut_.positions[c[0]], cut_.positions[c[1]], cut_.positions[c[2]]};
+  }
+
+  void add_panels() {
+    out_.surface_count = cut_.surface.size();
+    out_.parent = cut_.surface_parent;
+    for (std::size_t t = 0; t < cut_.surface.size(); ++t) {
+      const Corners& c = cut_.surface[TriId(t)];
+      out_.panels.push_back(make_panel(geometry(c), c));
+      const Corners& parent = surface_.corners[cut_.surface_parent[t]];
+      const Triangle x = surface_.triangle(cut_.surface_parent[t]);
+      std::array<Vec3, 3> values;
+      for (int k = 0; k < 3; ++k) {
+        const auto own = std::find(parent.begin(), parent.end(), c[k]);
+        values[k] =
+            own == parent.end() ? barycentric(x, cut_.positions[c[k]]) : Vec3::Unit(own - parent.begin());
+      }
+      out_.parent_values.push_back(values);
+    }
+    for (const Corners& c : cut_.sheet)
+      out_.panels.push_back(make_panel(geometry(c), c));
+  }
+
+  void classify_nodes() {
+    const std::size_t n = cut_.positions.size();
+    on_front_.assign(n, 0);
+    fixed_.assign(n, 0);
+    mouth_edges_.resize(n);
+    for (const Edge& e : cut_.mouth) {
+      mouth_edges_[e.a.index()].push_back(e.b);
+      mouth_edges_[e.b.index()].push_back(e.a);
+    }
+    for (const Corners& c : cut_.sheet)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId a = c[k], b = c[(k + 1) % 3];
+        if (crack_star_.along(b, a) >= 0 ||
+            std::binary_search(cut_.mouth.begin(), cut_.mouth.end(), Edge(a, b)))
+          continue;
+        on_front_[a.index()] = on_front_[b.index()] = 1;
+      }
+    for (std::size_t t = 0; t < cut_.surface.size(); ++t)
+      if (kinds_[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
+        for (NodeId node : cut_.surface[TriId(t)])
+          fixed_[node.index()] = 1;
+  }
+
+  void add_functions(NodeId node) {
+    const bool on_mouth = !mouth_edges_[node.index()].empty();
+    if (crack_star_.around(node).empty() || fixed_[node.index()]) return;
+    if (on_mouth && !is_surface_node(node)) add_hat(node);
+    if (on_front_[node.index()]) return;
+    if (!on_mouth) return add_crack_hat(node);
+    if (mouth_edges_[node.index()].size() == 2) add_mouth(node);
+  }
+
+  bool is_surface_node(NodeId node) const { return node.index() < cut_.surface_node_count; }
+
+  void add_crack_values(NodeId node, EnrichmentFunction& f) const {
+    for (std::size_t t : crack_star_.around(node))
+      f.support.push_back({out_.surface_count + t, unit_value(cut_.sheet[TriId(t)], node, -1)});
+  }
+
+  void add_crack_hat(NodeId node) {
+    EnrichmentFunction f{EnrichmentKind::crack, node, {}, {}};
+    add_crack_values(node, f);
+    out_.functions.push_back(std::move(f));
+  }
+
+  void add_hat(NodeId node) {
+    EnrichmentFunction f{EnrichmentKind::hat, node, {}, {}};
+    for (std::size_t t : surface_star_.around(node))
+      f.support.push_back({t, unit_value(cut_.surface[TriId(t)], node, 1)});
+    out_.functions.push_back(std::move(f));
+  }
+
+  // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points
+  // to runs along the mouth edge in the direction the crack triangle does.
+  void add_mouth(NodeId node) {
+    EnrichmentFunction f{EnrichmentKind::mouth, node, {}, {}};
+    std::vector<std::size_t> plus;
+    if (!collect_plus_fan(node, plus)) return;
+    add_crack_values(node, f);
+    for (std::size_t t : surface_star_.around(node)) {
+      const bool is_plus = std::find(plus.begin(), plus.end(), t) != plus.end();
+      f.support.push_back({t, unit_value(cut_.surface[TriId(t)], node, is_plus ? 0.5 : -0.5)});
+    }
+    out_.functions.push_back(std::move(f));
+  }
+
+  bool collect_plus_fan(NodeId node, std::vector<std::size_t>& plus) const {
+    for (NodeId other : mouth_edges_[node.index()]) {
+      // walk counter-clockwise from the mouth edge node→other if the crack runs that way: its left side is
+      // plus
+      if (crack_star_.along(node, other) < 0) continue;
+      NodeId spoke = other;
+      for (std::size_t guard = 0; guard <= surface_star_.around(node).size(); ++guard) {
+        const long t = surface_star_.along(node, spoke);
+        if (t < 0) return false;
+        plus.push_back(static_cast<std::size_t>(t));
+        const Corners& c = cut_.surface[TriId(static_cast<std::size_t>(t))];
+        spoke = c[(corner_of(c, node) + 2) % 3];
+        if (is_mouth_edge(node, spoke)) return true;
+      }
+      return false;
+    }
+    return false;
+  }
+
+  bool is_mouth_edge(NodeId a, NodeId b) const {
+    const auto& others = mouth_edges_[a.index()];
+    return std::find(others.begin(), others.end(), b) != others.end();
+  }
+
+  void make_key(EnrichmentFunction& f) const {
+    std::vector<std::array<double, 12>> parts;
+    for (const PanelValues& v : f.support) {
+      const Panel& p = out_.panels[v.panel];
+      int first = 0;  // the corner with the value that is not zero comes first
+      while (first < 2 && v.w[first] == 0)
+        ++first;
+      std::array<double, 12> part;
+      for (int k = 0; k < 3; ++k) {
+        const int c = (first + k) % 3;
+        for (int j = 0; j < 3; ++j)
+          part[4 * k + j] = p.x[c][j];
+        part[4 * k + 3] = v.w[c];
+      }
+      parts.push_back(part);
+    }
+    std::sort(parts.begin(), parts.end());
+    f.key.push_back(static_cast<double>(f.kind));
+    for (const auto& part : parts)
+      f.key.insert(f.key.end(), part.begin(), part.end());
+  }
+
+  const CutComplex& cut_;
+  const TriMesh& surface_;
+  const std::vector<BoundaryKind>& kinds_;
+  const Star surface_star_, crack_star_;
+  std::vector<char> on_front_, fixed_;
+  std::vector<std::vector<NodeId>> mouth_edges_;
+  EnrichedSpace out_;
+};
+
+}  // namespace
+
+EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
+                                  const std::vector<BoundaryKind>& kinds) {
+  return SpaceBuilder(cut, surface, kinds).build();
+}
+
+}  // namespace conchoid
