@@ -17,8 +17,8 @@
 namespace conchoid {
 namespace {
 
-using test::ScratchFolder;
 using test::synthetic_runs;
+using test::TemporaryFolder;
 
 /// As quickly trained as may be.
 TrainingSettings quick(const RegressorKind& kind, FeatureSet set = FeatureSet::dimensionless) {
@@ -60,7 +60,7 @@ TEST(RegressorKinds, AreKnownByNameAndMagic) {
 }
 
 TEST(RegressorKinds, TheFileSaysWhichItIs) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const RegressorKind& kind : regressor_kinds()) {
     const std::string name(kind.name);
     const auto regressor = trained(kind);
@@ -86,32 +86,32 @@ void expect_refused(const std::filesystem::path& file, const std::string& about)
 }
 
 TEST(RegressorKinds, DamagedFilesAreRefused) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const RegressorKind& kind : regressor_kinds()) {
     trained(kind, FeatureSet::paper_3)->save(folder / "whole");
     const std::string bytes = read_bytes(folder / "whole");
     for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 37) {
-      test::write_plainly(folder / "part", std::string_view(bytes).substr(0, n));
+      folder.write("part", std::string_view(bytes).substr(0, n));
       expect_refused(folder / "part", std::string(kind.name) + ", bytes " + std::to_string(n));
       std::string damaged = bytes;
       damaged[n] = static_cast<char>(damaged[n] ^ 0x10);
-      test::write_plainly(folder / "damaged", damaged);
+      folder.write("damaged", damaged);
       expect_refused(folder / "damaged", std::string(kind.name) + ", byte " + std::to_string(n));
     }
-    test::write_plainly(folder / "longer", bytes + "x");
+    folder.write("longer", bytes + "x");
     expect_refused(folder / "longer", "an extra byte");
     std::string newer = bytes;
     newer[8] = 9;
-    test::write_plainly(folder / "newer", newer);
+    folder.write("newer", newer);
     expect_part(refusal([&] { load_regressor(folder / "newer"); }), "version 9", std::string(kind.name));
   }
-  test::write_plainly(folder / "foreign", "solid cube\n");
+  folder.write("foreign", "solid cube\n");
   expect_part(refusal([&] { load_regressor(folder / "foreign"); }), regressor_names(), "foreign");
 }
 
 // A checksum that is right does not make the content right.
 TEST(RegressorKinds, TheContentIsLookedAtToo) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const RegressorKind& kind : regressor_kinds()) {
     trained(kind, FeatureSet::paper_3)->save(folder / "whole");
     std::string bytes = read_bytes(folder / "whole");
@@ -121,7 +121,7 @@ TEST(RegressorKinds, TheContentIsLookedAtToo) {
     bytes.replace(16, 8, length.bytes());
     ByteWriter checksum;
     checksum.put(hash_bytes(bytes));
-    test::write_plainly(folder / "shorter", bytes + checksum.bytes());
+    folder.write("shorter", bytes + checksum.bytes());
     expect_refused(folder / "shorter", std::string(kind.name));
     expect_part(refusal([&] { load_regressor(folder / "shorter"); }), std::string(kind.title), "its kind");
   }

@@ -15,8 +15,8 @@
 namespace conchoid {
 namespace {
 
-using test::ScratchFolder;
 using test::synthetic_runs;
+using test::TemporaryFolder;
 
 /// Of mean zero and deviation one, near enough to normal for two deviations.
 double noise(std::mt19937_64& random) {
@@ -163,7 +163,7 @@ TEST(Ridge, RefusesWhatItCannotLearn) {
 }
 
 TEST(Ridge, GivesTheSameBitsForEveryNumberOfThreads) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const int threads : {1, 2}) {
     set_thread_count(threads);
     RidgeRegression::train(with_law(synthetic_runs(12, 1, 1), 0.3, 0.1), {})
@@ -174,7 +174,7 @@ TEST(Ridge, GivesTheSameBitsForEveryNumberOfThreads) {
 }
 
 TEST(Ridge, ComesBackFromItsFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto ridge =
       RidgeRegression::train(with_law(synthetic_runs(5, 1, 1), 0.3, 0.1),
                              {.features = FeatureSet::dimensionless_context, .degree = 2, .lambda = {}}, {});

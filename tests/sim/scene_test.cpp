@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/settings.hpp"
+#include "temporary_folder.hpp"
 
 using namespace conchoid;
 
@@ -321,12 +319,10 @@ TEST(Scene, RemoteStressIsWrittenInVoigtOrder) {
 }
 
 TEST(Scene, FileNamesAreRelativeToTheScene) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "conchoid-scene-test";
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "body.off") << "OFF\n0 0 0\n";
-  std::ofstream(folder / "scene.toml") << "[body]\nmesh = \"body.off\"\n" + kMaterial;
+  const test::TemporaryFolder folder;
+  folder.write("body.off", "OFF\n0 0 0\n");
+  folder.write("scene.toml", "[body]\nmesh = \"body.off\"\n" + kMaterial);
   EXPECT_EQ(read_scene(folder / "scene.toml").body.mesh, folder / "body.off");
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Scene, AMissingFileIsNamed) {

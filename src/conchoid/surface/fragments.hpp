@@ -11,7 +11,7 @@ enum class FaceKind : std::uint8_t { original, fracture };
 /// Cracks that end in a piece. Its mesh shows them as slits: pairs of coincident faces.
 struct UnfinishedCracks {
   std::vector<TriMesh> sheets;  ///< boundary element meshes; they may stick out of the piece
-  TriMesh solid;                ///< the piece's surface without the slits; without triangles if there are none
+  TriMesh solid;  ///< the piece's surface without the slits; without triangles if there are none
   std::vector<TriId> solid_face;  ///< per triangle of `solid`: that of the piece's mesh
 };
 
@@ -27,7 +27,8 @@ struct Fragment {
   Vec3 center_of_mass = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass [kg m²]
   bool watertight = false;
-  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before transfer_attributes()
+  SurfaceAttributes
+      attributes;  ///< normals, texture coordinates, materials: empty before transfer_attributes()
   UnfinishedCracks unfinished = {};  ///< empty in pieces read from files
 };
 
