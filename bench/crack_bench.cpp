@@ -4,6 +4,7 @@
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
+#include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "crack/crack_samples.hpp"
 #include "side_by_side.hpp"
 
@@ -70,13 +71,14 @@ void front_advance(benchmark::State& state) {
     steps.push_back({start.fronts[0].nodes[i], frames[i], 0.2, 2e6});
     motions.push_back({start.fronts[0].nodes[i], 0.5 * edge * frames[i].e2});
   }
+  const auto law = std::make_shared<HoopStressLaw>(kGlassy);
   const ToughnessField toughness = [](const Vec3&) { return Toughness{1e6, Vec3::Zero()}; };
   side_by_side(
       state,
       [&] {
         CrackSheet sheet = start;
         FineFront fine = fine_start;
-        return seconds([&] { advance_fronts(sheet, fine, steps, toughness, edge); });
+        return seconds([&] { advance_fronts(sheet, fine, steps, {law, toughness}, edge); });
       },
       [&] { return seconds([&] { benchmark::DoNotOptimize(touching_nodes(start, motions, edge)); }); });
   state.counters["front_nodes"] = static_cast<double>(frames.size());

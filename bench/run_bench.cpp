@@ -15,7 +15,7 @@ Scene cube() {
   return scene;
 }
 
-RunResult run(const Scene& scene, Method method) {
+RunResult run(const Scene& scene, const std::string& method) {
   RunOptions options;
   options.method = method;
   options.progress = false;
@@ -41,16 +41,16 @@ void cube_solved(benchmark::State& state) {
       state,
       [&] {
         const std::clock_t start = std::clock();
-        const double time = seconds([&] { a = run(fast, Method::bem); });
+        const double time = seconds([&] { a = run(fast, "bem"); });
         processor = std::min(processor, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
         return time;
       },
-      [&] { return seconds([&] { b = run(slow, Method::bem); }); });
+      [&] { return seconds([&] { b = run(slow, "bem"); }); });
   add_split(state, a.document);
   state.counters["processor_ms"] = 1e3 * processor;
   if (!a.fragments.empty() && !b.fragments.empty())
     state.counters["volume_difference"] = std::abs(a.fragments[0].volume - b.fragments[0].volume);
-  state.SetLabel((t.fast < 0.5 ? "goal 0.5 s: met, " : "goal 0.5 s: missed, ") + a.document.stop);
+  state.SetLabel((t.fast < 0.5 ? "goal 0.5 s: met, " : "goal 0.5 s: missed, ") + std::string(name(a.document.stop)));
 }
 
 // Predicted after frame 1 without a forest ("K stays as it is"), against solved.
@@ -58,12 +58,12 @@ void cube_predicted(benchmark::State& state) {
   const Scene scene = cube();
   RunResult a, b;
   side_by_side(
-      state, [&] { return seconds([&] { a = run(scene, Method::steady); }); },
-      [&] { return seconds([&] { b = run(scene, Method::bem); }); });
+      state, [&] { return seconds([&] { a = run(scene, "steady"); }); },
+      [&] { return seconds([&] { b = run(scene, "bem"); }); });
   add_split(state, a.document);
   state.counters["opening_ratio"] =
       b.document.opening_seconds_per_frame / a.document.opening_seconds_per_frame;
-  state.SetLabel(a.document.stop);
+  state.SetLabel(std::string(name(a.document.stop)));
 }
 
 // A crack in varying toughness, swept at half the spacing. Goal: at most five times the price, which is what
@@ -73,14 +73,14 @@ void surface_refined(benchmark::State& state) {
   fine.resolution.surface = *coarse.resolution.surface / 2;
   RunResult a, b;
   const Times t = side_by_side(
-      state, [&] { return seconds([&] { a = run(coarse, Method::bem); }); },
-      [&] { return seconds([&] { b = run(fine, Method::bem); }); });
+      state, [&] { return seconds([&] { a = run(coarse, "bem"); }); },
+      [&] { return seconds([&] { b = run(fine, "bem"); }); });
   add_split(state, a.document);
   double difference = 0;  // of K, in the last rows of both
   if (!a.front.empty() && !b.front.empty())
     difference = std::abs(a.front.back().intensity[0] - b.front.back().intensity[0]);
   state.counters["intensity_difference"] = difference;
-  state.SetLabel((t.slow < 5 * t.fast ? "goal 5: met, " : "goal 5: missed, ") + a.document.stop);
+  state.SetLabel((t.slow < 5 * t.fast ? "goal 5: met, " : "goal 5: missed, ") + std::string(name(a.document.stop)));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "conchoid/intersect/corefine.hpp"
-#include "conchoid/intersect/corefine_pairs.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/surface/fragments.hpp"
 #include "intersect/cut_shapes.hpp"

@@ -17,5 +17,6 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/conchoid DESTINATION ${CMAKE_INSTALL
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/conchoidConfig.cmake.in conchoidConfig.cmake
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(conchoidConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/dependencies.cmake DESTINATION ${package_folder} RENAME conchoidDependencies.cmake)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/conchoidConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/conchoidConfigVersion.cmake
         DESTINATION ${package_folder})

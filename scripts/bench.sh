@@ -9,6 +9,7 @@ if [ ! -f "$build/CMakeCache.txt" ]; then
   scripts/install-dependencies.sh
   cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release
 fi
+cmake -B "$build" -DCONCHOID_BUILD_BENCH=ON
 cmake --build "$build" --target conchoid_bench
 
 processor=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -1)

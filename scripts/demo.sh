@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Builds conchoid and fractures a cube twice: solved by boundary elements, and predicted by a small forest that was trained
-# a moment before on other loads. Ends with the numbers of `compare` and the name of a picture of both.
+# Builds the program and fractures a cube twice: solved by boundary elements, and predicted by a small forest that was trained
+# a moment before on other loads. Ends with the numbers of `compare` and the name of a picture of both. On a fresh machine the
+# program is built without OpenVDB, which the demo does not need; scripts/build.sh adds it, the tests and the benchmarks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/build.sh
+scripts/build.sh program
 conchoid=build/conchoid
 out=build/demo
 rm -rf "$out"

@@ -1,14 +1,24 @@
 #!/usr/bin/env bash
-# Installs what building, testing and the demo need on Debian 12. Asks nothing, changes nothing that is there already.
+# Installs what is needed on Debian 12: for the program and the demo (`program`), or for everything, tests and benchmarks
+# included (`all`, the default). Asks nothing, changes nothing that is there already.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libopenblas-dev liblapack-dev libtbb-dev libfmt-dev libxxhash-dev
-  libhdf5-dev libxgboost-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
-  libembree-dev libpng-dev libqhull-dev libopenvdb-dev libboost-dev
-  libgtest-dev libbenchmark-dev libassimp-dev
+  libeigen3-dev libopenblas-dev libtbb-dev libfmt-dev libxxhash-dev libqhull-dev
+  nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
+  libembree-dev libpng-dev       # CONCHOID_WITH_PICTURES
+  libhdf5-dev libxgboost-dev     # CONCHOID_WITH_LEARNING
 )
+case ${1:-all} in
+  program) ;;
+  all)
+    packages+=(
+      libopenvdb-dev libboost-dev  # CONCHOID_WITH_VDB
+      libgtest-dev libbenchmark-dev libassimp-dev
+    ) ;;
+  *) echo "install-dependencies: '$1' is not known; choose from program, all" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

@@ -45,7 +45,7 @@ SCENES = {
     "cube-ice": body("cube", "ice", "3e6"),
     "cube-two-cracks": body("cube", "glass", "6e7", held=True, more="[run]\nmax_cracks = 2\nframes = 8\n"),
     "cube-one-point": body("cube", "glass", "6e7", held=True, more='[run]\nsif = "one-point"\n'),
-    "cube-compression": body("cube", "plaster", "8e6", held=True, more='[run]\ncompression = "published"\n'),
+    "cube-compression": body("cube", "plaster", "8e6", held=True, more='[run]\ncompression = "published"\ncontact = false\n'),
     "edge-crack-concrete": '[body]\nmodel = "edge-crack-cube"\n[material]\nname = "concrete"\n[resolution]\ncrack = 0.15\n'
                            'surface = 0.02\n' + PULL.format(top="z+", bottom="z-", stress="2e6", other="traction = [0.0, 0.0, -2e6]"),
 }

@@ -1,45 +1,25 @@
 #pragma once
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <Eigen/Core>
-#include <atomic>
 #include <filesystem>
 #include <string>
 
 #include "conchoid/core/vec.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/scene.hpp"
+#include "temporary_folder.hpp"
 
 // Scenes of the tests as text, the way a user writes them.
 namespace conchoid::test {
 
-/// A folder of its own under the system's temporary folder, removed with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static std::atomic<int> count = 0;
-    path_ = std::filesystem::temp_directory_path() / fmt::format("conchoid-test-{}-{}", ::getpid(), ++count);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  /// Writes the mesh under this name and returns the file's path.
-  std::string write(const std::string& name, const TriMesh& mesh) const {
-    write_mesh(path_ / name, mesh);
-    return (path_ / name).string();
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+/// Writes the mesh into the folder and returns the file's path as a scene names it.
+inline std::string write_mesh_in(const TemporaryFolder& folder, const std::string& name,
+                                 const TriMesh& mesh) {
+  write_mesh(folder / name, mesh);
+  return (folder / name).string();
+}
 
 /// Shortest text that reads back bit for bit.
 inline std::string text(double x) {
@@ -89,6 +69,13 @@ inline std::string cracked_cube_text(const std::string& fields, double crack, do
          "[[crack]]\nkind = 'disc'\ncenter = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\nradius = 0.2\n" +
          boundary_text("z+", "traction", {0, 0, 1e7}) + boundary_text("z-", "traction", {0, 0, -1e7}) +
          "[run]\nmax_cracks = 0\n";
+}
+
+/// The cube pulled apart askew by its ends: a crack starts and cuts it in two.
+inline std::string pulled_cube_text() {
+  return "[body]\nmodel = 'cube'\n" + material_text() + resolution_text(0.1, 0.02) +
+         boundary_text("z+", "traction", {3e7, 1e7, 9e7}) +
+         boundary_text("z-", "traction", {-3e7, -1e7, -9e7}) + "[run]\ninertia_relief = true\n";
 }
 
 /// A rotation about no axis of note, orthogonal to the last bit or two.

@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command.hpp"
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/evaluate.hpp"
+#include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/summary.hpp"
+#include "conchoid/sim/methods.hpp"
 
 namespace conchoid {
 namespace {
@@ -21,36 +26,47 @@ using nlohmann::ordered_json;
 constexpr std::array kModes = {"I", "II", "III"};
 
 struct ForestOptions {
-  std::string file, samples, out, features = "paper-4";
-  ForestSettings settings;
+  std::string file, samples, out, model = "forest", features = "paper-4";
+  TrainingSettings settings;
+  std::map<std::string, double> numbers;  ///< of all kinds, by name; given ones become settings.options
+  std::map<std::string, CLI::Option*> given;
   double hold_out = 0;
 };
 
+Evaluation evaluate_beside_baselines(const Regressor& model, const SampleSet& samples) {
+  return evaluate(model, samples, baseline_predictors());
+}
+
 std::string evaluation_text(const Evaluation& e) {
-  std::string text = fmt::format(
-      "{} samples of {} runs, {} in the range of the training\n"
-      "            R²                        root mean square error of Δu/r̄\n"
-      "mode        forest       steady       forest       steady",
-      e.samples, e.runs, e.in_range);
-  for (Eigen::Index mode = 0; mode < 3; ++mode)
-    text += fmt::format("\n{:<5} {:12.4f} {:12.4f} {:12.4e} {:12.4e}", kModes[static_cast<std::size_t>(mode)],
-                        e.forest.r2[mode], e.baseline_steady.r2[mode], e.forest.rmse[mode],
-                        e.baseline_steady.rmse[mode]);
+  std::vector<Score> scores = {e.model};
+  scores.insert(scores.end(), e.baselines.begin(), e.baselines.end());
+  std::string text = fmt::format("{} samples of {} runs, {} in the range of the training\n", e.samples,
+                                 e.runs, e.model.in_range);
+  text += fmt::format("{:<12}{:<{}}root mean square error of Δu/r̄\nmode ", "", "R²", 13 * scores.size());
+  for (int part = 0; part < 2; ++part)
+    for (const Score& score : scores)
+      text += fmt::format(" {:>12}", score.name);
+  for (Eigen::Index mode = 0; mode < 3; ++mode) {
+    text += fmt::format("\n{:<5}", kModes[static_cast<std::size_t>(mode)]);
+    for (const Score& score : scores)
+      text += fmt::format(" {:12.4f}", score.accuracy.r2[mode]);
+    for (const Score& score : scores)
+      text += fmt::format(" {:12.4e}", score.accuracy.rmse[mode]);
+  }
   if (e.seen_in_training)
-    text += "\nThese are the samples the forest was trained on: its figures flatter it.";
+    text += "\nThese are the samples of the training: the figures of the " + e.model.name + " flatter it.";
   return text;
 }
 
-std::string forest_text(const RegressionForest& forest) {
-  const ForestSettings& s = forest.settings();
-  const Provenance& p = forest.provenance();
-  std::string text = fmt::format(
-      "features    {}\ntrees       {} of depth {} per mode\ntrained on  {} samples of {} runs ({})",
-      name(s.features), s.trees, s.depth, p.samples, p.runs, fmt::join(p.models, ", "));
-  const std::vector<std::string> names = feature_names(s.features);
+std::string regressor_text(const Regressor& regressor) {
+  const Provenance& p = regressor.provenance();
+  std::string text = fmt::format("model       {}\nfeatures    {}\n{}\ntrained on  {} samples of {} runs ({})",
+                                 regressor_kind(regressor.name()).title, name(regressor.feature_set()),
+                                 regressor.summary(), p.samples, p.runs, fmt::join(p.models, ", "));
+  const std::vector<std::string> names = feature_names(regressor.feature_set());
   for (std::size_t i = 0; i < names.size(); ++i)
-    text += fmt::format("\n  {:<28} {:12.4e} … {:12.4e}", names[i], forest.ranges()[i].minimum,
-                        forest.ranges()[i].maximum);
+    text += fmt::format("\n  {:<28} {:12.4e} … {:12.4e}", names[i], regressor.ranges()[i].minimum,
+                        regressor.ranges()[i].maximum);
   return text;
 }
 
@@ -65,43 +81,53 @@ Provenance provenance_of(const DatabaseHeader& header) {
 
 void train(ForestOptions options, const CommonOptions& common) {
   options.settings.features = feature_set_from_name(options.features);
+  for (const auto& [name, option] : options.given)
+    if (option->count() > 0) options.settings.options[name] = options.numbers[name];
   const Database database = read_database(options.samples);
   if (!database.complete())
-    warning(options.samples + ": some planned runs are missing; the forest learns from what is there");
+    warning(options.samples + ": some planned runs are missing; the training goes by what is there");
   Split split{database.training_samples(), {}};
   if (options.hold_out > 0) split = split_by_run(split.training, options.hold_out, options.settings.seed);
 
-  Progress progress("trees", static_cast<std::size_t>(options.settings.trees) * 3);
-  const auto on_tree = [&](int, int) {
+  std::optional<Progress> progress;
+  const auto on_step = [&progress](int, int total) {
     throw_if_interrupted();
-    progress.advance();
+    if (!progress) progress.emplace("training", static_cast<std::size_t>(total));
+    progress->advance();
   };
-  const RegressionForest forest =
-      RegressionForest::train(split.training, options.settings, provenance_of(database.header), on_tree);
-  forest.save(options.out);
+  const std::unique_ptr<Regressor> model =
+      train_regressor(regressor_kind(options.model), split.training, options.settings,
+                      provenance_of(database.header), on_step);
+  progress.reset();
+  model->save(options.out);
 
-  if (split.held_out.empty()) return print(common.json ? json_text(forest) : forest_text(forest));
-  const Evaluation held_out = evaluate(forest, split.held_out);
-  if (!common.json) return print(forest_text(forest) + "\n\nheld out: " + evaluation_text(held_out));
-  ordered_json json = ordered_json::parse(json_text(forest));
+  if (split.held_out.empty()) return print(common.json ? json_text(*model) : regressor_text(*model));
+  const Evaluation held_out = evaluate_beside_baselines(*model, split.held_out);
+  if (!common.json) return print(regressor_text(*model) + "\n\nheld out: " + evaluation_text(held_out));
+  ordered_json json = ordered_json::parse(json_text(*model));
   json["held_out"] = ordered_json::parse(json_text(held_out));
   print(json.dump());
 }
 
-/// Sizes of the trees and how often each feature decides, per mode.
-ordered_json inspection(const RegressionForest& forest) {
-  const std::vector<std::string> names = feature_names(forest.settings().features);
+/// Sizes of the trees and how often each feature decides, per mode. Throws InputError for what has no trees.
+ordered_json inspection(const std::string& file) {
+  const std::unique_ptr<Regressor> regressor = load_regressor(file);
+  const auto* forest = dynamic_cast<const RegressionForest*>(regressor.get());
+  if (!forest)
+    throw InputError(fmt::format("{}: holds a {}, which has no trees to inspect; use `conchoid forest info`",
+                                 file, regressor_kind(regressor->name()).title));
+  const std::vector<std::string> names = feature_names(forest->feature_set());
   ordered_json modes;
   for (int mode = 0; mode < 3; ++mode) {
     std::vector<std::size_t> splits(names.size(), 0);
     std::size_t leaves = 0;
-    for (const RegressionTree& tree : forest.ensemble(mode).trees())
+    for (const RegressionTree& tree : forest->ensemble(mode).trees())
       for (std::size_t i = 0; i < tree.size(); ++i)
         tree.left[i] < 0 ? ++leaves : ++splits[static_cast<std::size_t>(tree.feature[i])];
     ordered_json& m = modes[kModes[static_cast<std::size_t>(mode)]];
-    m["trees"] = forest.ensemble(mode).tree_count();
-    m["depth"] = forest.ensemble(mode).depth();
-    m["nodes"] = forest.ensemble(mode).node_count();
+    m["trees"] = forest->ensemble(mode).tree_count();
+    m["depth"] = forest->ensemble(mode).depth();
+    m["nodes"] = forest->ensemble(mode).node_count();
     m["leaves"] = leaves;
     for (std::size_t f = 0; f < names.size(); ++f)
       m["splits"][names[f]] = splits[f];
@@ -121,25 +147,44 @@ std::string inspection_text(const ordered_json& inspection) {
   return text;
 }
 
+/// Numbers that kinds of regressors can be given; one that several kinds know stands once.
+void add_training_options(CLI::App& command, ForestOptions& options) {
+  for (const RegressorKind& kind : regressor_kinds())
+    for (const TrainingOption& option : kind.options) {
+      const std::string name(option.name);
+      if (options.given.contains(name)) continue;
+      CLI::Option* added =
+          command
+              .add_option("--" + name, options.numbers[name], fmt::format("{}: {}", kind.name, option.help))
+              ->check(option.whole
+                          ? CLI::Range(static_cast<int>(option.minimum), static_cast<int>(option.maximum))
+                          : CLI::Range(option.minimum, option.maximum))
+              ->type_name(option.whole ? "INT" : "FLOAT");
+      if (option.standard) added->default_str(fmt::format("{}", *option.standard));
+      options.given[name] = added;
+    }
+}
+
 void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<ForestOptions>& options) {
-  CLI::App* command = add_command(group, invocation, "train", "Train three regression forests, one per mode",
+  CLI::App* command = add_command(group, invocation, "train", "Train a regressor for all three modes",
                                   [options, &invocation] { train(*options, invocation.common); });
-  ForestSettings& s = options->settings;
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, models;
   for (FeatureSet set : all_feature_sets())
     sets.emplace_back(name(set));
+  for (const RegressorKind& kind : regressor_kinds())
+    models.emplace_back(kind.name);
   command->add_option("SAMPLES", options->samples, "database file (HDF5)")->required();
-  command->add_option("--out", options->out, "forest file to write")->required();
-  command->add_option("--trees", s.trees, "trees per mode")
-      ->check(CLI::Range(1, 10000))
+  command->add_option("--out", options->out, "file to write")->required();
+  command->add_option("--model", options->model, "kind of regressor")
+      ->check(CLI::IsMember(models))
       ->capture_default_str();
-  command->add_option("--depth", s.depth, "largest depth of a tree")
-      ->check(CLI::Range(1, 20))
-      ->capture_default_str();
+  add_training_options(*command, *options);
   command->add_option("--features", options->features, "feature set")
       ->check(CLI::IsMember(sets))
       ->capture_default_str();
-  command->add_option("--seed", s.seed, "of the bootstrap samples and of what is held out")
+  command
+      ->add_option("--seed", options->settings.seed,
+                   "of whatever is drawn at random, what is held out among it")
       ->capture_default_str();
   command
       ->add_option("--hold-out", options->hold_out, "share of the runs kept from training and evaluated on")
@@ -150,31 +195,31 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
 }  // namespace
 
 void add_forest(CLI::App& program, Invocation& invocation) {
-  CLI::App* group = program.add_subcommand("forest", "Train and look at regression forests");
+  CLI::App* group = program.add_subcommand("forest", "Train regressors on databases and look at them");
   allow_one_command(*group);
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
   const auto add_file = [options](CLI::App* command) {
-    command->add_option("FILE", options->file, "forest file")->required();
+    command->add_option("FILE", options->file, "file written by forest train")->required();
     return command;
   };
   add_file(add_command(*group, invocation, "info", "Settings, provenance and ranges of the training",
                        [options, &invocation] {
-                         const RegressionForest forest = RegressionForest::load(options->file);
-                         print(invocation.common.json ? json_text(forest) : forest_text(forest));
+                         const std::unique_ptr<Regressor> model = load_regressor(options->file);
+                         print(invocation.common.json ? json_text(*model) : regressor_text(*model));
                        }));
   add_file(add_command(*group, invocation, "evaluate", "One-step accuracy beside the steady baseline",
                        [options, &invocation] {
-                         const RegressionForest forest = RegressionForest::load(options->file);
-                         const Evaluation e =
-                             evaluate(forest, read_database(options->samples).training_samples());
+                         const std::unique_ptr<Regressor> model = load_regressor(options->file);
+                         const Evaluation e = evaluate_beside_baselines(
+                             *model, read_database(options->samples).training_samples());
                          print(invocation.common.json ? json_text(e) : evaluation_text(e));
                        }))
       ->add_option("--samples", options->samples, "database file (HDF5)")
       ->required();
   add_file(add_command(*group, invocation, "inspect", "Sizes of the trees and what they split on",
                        [options, &invocation] {
-                         const ordered_json json = inspection(RegressionForest::load(options->file));
+                         const ordered_json json = inspection(options->file);
                          print(invocation.common.json ? json.dump() : inspection_text(json));
                        }));
 }

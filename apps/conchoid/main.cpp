@@ -1,13 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
 
 #include "command.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/interrupt.hpp"
-#include "conchoid/core/log.hpp"
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/terminal_sink.hpp"
+#include "signals.hpp"
 
 namespace conchoid {
 namespace {
@@ -16,10 +17,10 @@ enum ExitStatus { kDone = 0, kFailed = 1, kBadInput = 2 };
 
 int carry_out(const Invocation& invocation) {
   try {
-    set_quiet(invocation.common.quiet);
-    set_thread_count(invocation.common.threads);
-    catch_interrupts();
-    invocation.action();
+    ExecutionContext context(invocation.common.threads,
+                             std::make_shared<TerminalSink>(invocation.common.quiet));
+    const StopOnSignals stop_on_signals(context);
+    context.run(invocation.action);
     return kDone;
   } catch (const InputError& error) {
     std::cerr << "error: " << error.what() << '\n';

@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/formats/formats.hpp"
-#include "conchoid/sim/body_setup.hpp"
+#include "conchoid/sim/prepared_body.hpp"
 
 namespace conchoid {
 namespace {
@@ -18,7 +18,7 @@ struct MeshCommand {
 
 void mesh_and_print(const MeshCommand& command, const CommonOptions& common) {
   const Scene scene = read_scene(command.scene);
-  const TriMesh mesh = scene_mesh(scene);
+  const TriMesh mesh = scene_body(scene).surface;
   if (mesh.corners.empty())
     throw InputError(scene.body.where + ": the infinite body has no surface to write; choose another model");
   write_mesh(command.out, mesh);

@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/io/run_pictures.hpp"
+#include "conchoid/sim/methods.hpp"
 
 namespace conchoid {
 namespace {
@@ -35,6 +36,12 @@ Vec3 usual_view(const Vec3& up) {
   return usual.from.x() * right - usual.from.y() * front + usual.from.z() * up;
 }
 
+PicturePanel titled_panel(const RunData& run, const std::string& folder, const RunPictureSettings& settings) {
+  PicturePanel panel = run_panel(run, folder, settings);
+  if (const OpeningMethod* method = find_opening_method(run.document.method)) panel.title = method->title;
+  return panel;
+}
+
 std::vector<PicturePanel> panels_of(const PictureCommand& command) {
   std::vector<PicturePanel> panels;
   for (const std::string& folder : command.runs) {
@@ -43,7 +50,7 @@ std::vector<PicturePanel> panels_of(const PictureCommand& command) {
       for (PicturePanel& panel : frame_panels(run, folder, command.sheet, command.run))
         panels.push_back(std::move(panel));
     else
-      panels.push_back(run_panel(run, folder, command.run));
+      panels.push_back(titled_panel(run, folder, command.run));
   }
   if (command.plain)
     for (PicturePanel& panel : panels)

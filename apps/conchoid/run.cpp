@@ -6,16 +6,18 @@
 #include <memory>
 
 #include "command.hpp"
+#include "conchoid/bem/body_solver.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor.hpp"
+#include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/settings.hpp"
 
 namespace conchoid {
 namespace {
 
 struct RunCommand {
-  std::string scene, method = "bem", database, out;
+  std::string scene, method = "bem", database, out, solver = body_solver_names().front();
   std::vector<std::string> formats;  ///< empty: the scene's
   int frames = 0;                    ///< 0: the scene's
   bool resume = false;
@@ -25,7 +27,7 @@ std::string report_text(const RunDocument& d) {
   std::string text = fmt::format(
       "{} after {} frames, {} → {} triangles\n"
       "{:.3f} s: opening {:.3f}, fracture {:.3f}, other {:.3f}; opening per frame {:.4f}",
-      d.stop, d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
+      name(d.stop), d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
       d.fracture_seconds, d.other_seconds, d.opening_seconds_per_frame);
   for (std::size_t i = 0; i < d.fragments.size(); ++i)
     text += fmt::format("\nfragment {}: {:.6g} m³, {:.6g} kg, fracture area {:.6g} m², {}", i,
@@ -34,15 +36,14 @@ std::string report_text(const RunDocument& d) {
   return text + "\nhash " + d.hash;
 }
 
-/// The finished run of the same scene that the folder holds, if there is one. A forest is not recorded well
+/// The finished run of the same scene that the folder holds, if there is one. A regressor is not recorded well
 /// enough to know that it is the same: such runs are made again.
 std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& scene,
                                         const RunOptions& options) {
   const std::filesystem::path file = std::filesystem::path(command.out) / "run.json";
-  if (!command.resume || !std::filesystem::exists(file) || options.method == Method::forest)
-    return std::nullopt;
+  if (!command.resume || !std::filesystem::exists(file) || options.regressor) return std::nullopt;
   RunDocument document = read_run_json(file);
-  if (document.scene_text != scene.text || document.method != name(options.method))
+  if (document.scene_text != scene.text || document.method != options.method)
     throw InputError(file.string() +
                      ": belongs to another scene or method; name another folder, or leave out --resume");
   const std::int64_t frames = options.frames.value_or(scene.run.frames);
@@ -52,35 +53,31 @@ std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& 
     if (s.name == "run.frames" && s.value != RunSetting{s.name, frames}.value) return std::nullopt;
     if (s.name == "output.formats" && s.value != RunSetting{s.name, formats}.value) return std::nullopt;
   }
-  if (document.stop == "interrupted") return std::nullopt;
+  if (document.stop == StopReason::interrupted) return std::nullopt;
   return document;
 }
 
 void run_and_print(const RunCommand& command, const CommonOptions& common) {
   RunOptions options;
-  options.method = method_from_name(command.method);
+  options.method = command.method;
   if (command.frames > 0) options.frames = command.frames;
   if (!command.out.empty()) options.folder = command.out;
   if (!command.formats.empty()) options.formats = command.formats;
-  if ((options.method == Method::forest) == command.database.empty())
-    throw InputError(command.database.empty()
-                         ? "--method forest needs a forest: add --database FOREST"
-                         : "--database goes with --method forest; add one or remove the other");
   options.resume = command.resume;
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
-  const Scene scene = read_scene(command.scene);
-  std::optional<RegressionForest> forest;
-  if (!command.database.empty()) {
-    forest = RegressionForest::load(command.database);
-    options.forest = &*forest;
-  }
+  std::unique_ptr<Regressor> regressor;
+  if (!command.database.empty()) regressor = load_regressor(command.database);
+  options.regressor = regressor.get();
+  checked_method(options.method, options.regressor);
+  Scene scene = read_scene(command.scene);
+  scene.run.solver = command.solver;
   std::optional<RunDocument> document = finished_run(command, scene, options);
   if (document)
     message(command.out + ": finished already; reported again");
   else
     document = run_scene(scene, options).document;
   print(common.json ? run_json(*document, RunJson::report) : report_text(*document));
-  if (document->stop == "interrupted")
+  if (document->stop == StopReason::interrupted)
     throw Interrupted("stopped on request; what was computed so far has been kept");
 }
 
@@ -91,11 +88,26 @@ void add_run(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       add_command(program, invocation, "run", "Fracture a body: solve or predict, grow, cut into pieces",
                   [options, &invocation] { run_and_print(*options, invocation.common); });
+  std::vector<std::string> names;
+  std::string help, trained;
+  for (const OpeningMethod& method : opening_methods()) {
+    names.push_back(method.name);
+    help += (help.empty() ? "" : "; ") + method.name + " " + method.help;
+    if (!method.regressor.empty()) trained += (trained.empty() ? "" : " or ") + method.name;
+  }
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
-  command->add_option("--method", options->method, "where the crack opening comes from after frame 1")
-      ->check(CLI::IsMember({"bem", "forest", "steady"}))
+  command->add_option("--method", options->method, "where the crack opening comes from: " + help)
+      ->check(CLI::IsMember(names))
       ->capture_default_str();
-  command->add_option("--database", options->database, "forest file, for --method forest");
+  command
+      ->add_option(
+          "--solver", options->solver,
+          "how the uncracked body is solved: by factors, or by conjugate gradients on products alone, "
+          "which gives the same to rounding and is slower")
+      ->check(CLI::IsMember(body_solver_names()))
+      ->capture_default_str();
+  command->add_option("--database", options->database,
+                      "file written by conchoid forest train, for --method " + trained);
   command->add_option("--frames", options->frames, "most frames, in place of the scene's")
       ->check(CLI::Range(1, 100000));
   command->add_option("--out", options->out, "run folder to write; without it nothing is written");

@@ -47,9 +47,10 @@ TriMesh turned(TriMesh mesh, const Mat3& rotation) {
 
 std::vector<SifNode> sifs(const TriMesh& crack, const Mat3& stress) {
   const test::TemporaryFolder folder;
-  const SifReport report = compute_sifs(test::scene_from_text(
-      "[body]\nmodel = 'infinite'\n" + test::material_text() +
-      test::mesh_crack_text(folder.write("crack.ply", crack)) + test::remote_stress_text(stress)));
+  const SifReport report = compute_sifs(
+      test::scene_from_text("[body]\nmodel = 'infinite'\n" + test::material_text() +
+                            test::mesh_crack_text(test::write_mesh_in(folder, "crack.ply", crack)) +
+                            test::remote_stress_text(stress)));
   EXPECT_EQ(report.fronts.size(), 1u);
   return report.fronts.at(0).nodes;
 }

@@ -42,7 +42,8 @@ TEST_P(EdgeCrack, MidFrontWithinFivePercentOfTada) {
   const Strip s = GetParam();
   const double stress = 1e6;
   const test::TemporaryFolder folder;
-  const std::string file = folder.write("strip.obj", box_mesh({1, 1, 4}, s.cells, s.cells, 4 * s.cells));
+  const std::string file =
+      test::write_mesh_in(folder, "strip.obj", box_mesh({1, 1, 4}, s.cells, s.cells, 4 * s.cells));
   const SifReport report = compute_sifs(test::scene_from_text(strip_text(s, file, stress)));
   int count = 0;
   double sum = 0;

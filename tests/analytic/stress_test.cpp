@@ -57,9 +57,10 @@ TEST(CubeStress, HeldAndPulledAgreeWithoutContraction) {
 // Far from the held face contraction plays no part either (Saint-Venant).
 TEST(BarStress, HeldEndIsForgottenTwoWidthsAway) {
   const test::TemporaryFolder folder;
-  const std::string body = test::mesh_body_text(folder.write("bar.obj", box_mesh({1, 1, 4}, 4, 4, 16))) +
-                           test::material_text() + test::region_text("top", "[0, 0, 1, 1.99]") +
-                           test::region_text("bottom", "[0, 0, -1, 1.99]");
+  const std::string body =
+      test::mesh_body_text(test::write_mesh_in(folder, "bar.obj", box_mesh({1, 1, 4}, 4, 4, 16))) +
+      test::material_text() + test::region_text("top", "[0, 0, 1, 1.99]") +
+      test::region_text("bottom", "[0, 0, -1, 1.99]");
   const std::string top = test::boundary_text("top", "traction", {0, 0, kStress});
   const auto free = stress(body + top + test::boundary_text("bottom", "traction", {0, 0, -kStress}));
   const auto held = stress(body + top + "[[boundary]]\nregion = 'bottom'\nfixed = true\n");
@@ -91,7 +92,7 @@ TEST(SphereStress, PulledFromAllSidesIsHydrostatic) {
   const TriMesh sphere = icosphere(1, 3);
   ASSERT_EQ(sphere.triangle_count(), 1280u);
   const StressReport report =
-      stress(test::mesh_body_text(folder.write("sphere.obj", sphere)) + test::material_text() +
+      stress(test::mesh_body_text(test::write_mesh_in(folder, "sphere.obj", sphere)) + test::material_text() +
              pressure_text(sphere, 0, sphere.triangle_count(), 1, kStress, ""));
   double error = 0;
   for (const auto& t : report.triangles)
@@ -117,7 +118,7 @@ TEST(SphereStress, HollowSphereUnderInnerPressure) {
       ", [1, 0, 0, -1.01], [-1, 0, 0, -1.01], [0, 1, 0, -1.01], [0, -1, 0, -1.01], [0, 0, 1, -1.01], "
       "[0, 0, -1, -1.01]";
   const StressReport report =
-      stress(test::mesh_body_text(folder.write("hollow.obj", body)) + test::material_text() +
+      stress(test::mesh_body_text(test::write_mesh_in(folder, "hollow.obj", body)) + test::material_text() +
              pressure_text(body, outer_triangles, body.triangle_count(), -1, kStress, box));
   const auto hoop = [&](double r) {
     return kStress * a * a * a / (b * b * b - a * a * a) * (1 + b * b * b / (2 * r * r * r));

@@ -11,6 +11,7 @@
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/ridge.hpp"
 #include "conchoid/mesh/models.hpp"
 
 using namespace conchoid;
@@ -84,6 +85,10 @@ void write_small_database(const std::filesystem::path& file) {
 
 void write_small_forest(const std::filesystem::path& file) {
   RegressionForest::train(small_database().samples, {.trees = 2, .depth = 3}).save(file);
+}
+
+void write_small_ridge(const std::filesystem::path& file) {
+  RidgeRegression::train(small_database().samples, {}).save(file);
 }
 
 std::string front_part(const std::string& text, double share) {
@@ -163,7 +168,7 @@ const std::vector<BadInput> kBadInputs = {
     {"threads_text", scene(kCube), {"run", "scene.toml", "--threads", "two"}, {"--threads"}},
     {"zero_frames", scene(kCube), {"run", "scene.toml", "--frames", "0"}, {"--frames"}},
     {"unknown_method", scene(kCube), {"run", "scene.toml", "--method", "magic"}, {"--method"}},
-    {"forest_without_file", scene(kCube), {"run", "scene.toml", "--method", "forest"}, {"--database FOREST"}},
+    {"forest_without_file", scene(kCube), {"run", "scene.toml", "--method", "forest"}, {"--database FILE"}},
     {"bem_with_forest",
      broken_forest([](auto& f) { return f; }),
      {"run", "scene.toml", "--database", "good.forest"},
@@ -405,6 +410,26 @@ const std::vector<BadInput> kBadInputs = {
      broken_forest([](auto&) { return std::string("just text"); }),
      {"run", "scene.toml", "--method", "forest", "--database", "broken.forest", "--out", "out/run"},
      {"broken.forest"}},
+    {"forest_for_ridge",
+     broken_forest([](auto& f) { return f; }),
+     {"run", "scene.toml", "--method", "ridge", "--database", "good.forest"},
+     {"ridge regression", "--method forest"}},
+    {"ridge_with_trees",
+     [](const TemporaryFolder& folder) { write_small_database(folder / "good.h5"); },
+     {"forest", "train", "good.h5", "--out", "out/f", "--model", "ridge", "--trees", "5"},
+     {"--trees", "--lambda", "--model"}},
+    {"ridge_has_no_trees",
+     [](const TemporaryFolder& folder) { write_small_ridge(folder / "small.ridge"); },
+     {"forest", "inspect", "small.ridge"},
+     {"small.ridge", "forest info"}},
+    {"unknown_model",
+     nothing,
+     {"forest", "train", "a.h5", "--out", "out/f", "--model", "oracle"},
+     {"--model", "ridge"}},
+    {"context_nowhere_recorded",
+     [](const TemporaryFolder& folder) { write_small_database(folder / "good.h5"); },
+     {"forest", "train", "good.h5", "--out", "out/f", "--features", "dimensionless-context"},
+     {"front_curvature", "surface_distance", "traction_I"}},
     {"forest_is_database",
      [](const TemporaryFolder& folder) { write_small_database(folder / "good.h5"); },
      {"forest", "evaluate", "good.h5", "--samples", "good.h5"},

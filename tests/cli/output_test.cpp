@@ -202,16 +202,24 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
   EXPECT_EQ(info["models"], json::array({"cube"}));
   EXPECT_EQ(info["material"]["poisson_ratio"], 0.327);
 
-  json_of(folder, {"forest", "train", "cube.h5", "--out", "cube.forest", "--trees", "10", "--depth", "6"});
-  const json accuracy = json_of(folder, {"forest", "evaluate", "cube.forest", "--samples", "cube.h5"});
-  EXPECT_EQ(accuracy["samples"], info["samples"]);
-  for (const char* mode : {"I", "II", "III"}) {
-    EXPECT_TRUE(accuracy["rmse"].contains(mode));
-    EXPECT_TRUE(accuracy["r2"].contains(mode));
-    EXPECT_TRUE(accuracy["baseline_steady"]["r2"].contains(mode));
+  const std::vector<std::pair<std::string, std::vector<std::string>>> models = {
+      {"forest", {"--trees", "10", "--depth", "6"}}, {"ridge", {"--degree", "1"}}};
+  for (const auto& [model, options] : models) {
+    std::vector<std::string> train = {"forest", "train", "cube.h5", "--out", model, "--model", model};
+    train.insert(train.end(), options.begin(), options.end());
+    const json trained = json_of(folder, train);
+    EXPECT_EQ(trained["model"], model);
+    EXPECT_EQ(json_of(folder, {"forest", "info", model}), trained);
+    const json accuracy = json_of(folder, {"forest", "evaluate", model, "--samples", "cube.h5"});
+    EXPECT_EQ(accuracy["samples"], info["samples"]);
+    for (const char* mode : {"I", "II", "III"}) {
+      EXPECT_TRUE(accuracy["rmse"].contains(mode));
+      EXPECT_TRUE(accuracy["r2"].contains(mode));
+      EXPECT_TRUE(accuracy["baseline_steady"]["r2"].contains(mode));
+    }
+    const json run = json_of(folder, {"run", "cube.toml", "--method", model, "--database", model});
+    EXPECT_GT(run["frames"].get<int>(), 1);
   }
-  const json run = json_of(folder, {"run", "cube.toml", "--method", "forest", "--database", "cube.forest"});
-  EXPECT_GT(run["frames"].get<int>(), 1);
 }
 
 TEST(Database, ShardsMergeToTheWhole) {

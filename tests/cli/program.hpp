@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "temporary_folder.hpp"
+
 namespace conchoid::test {
 
 /// What a call of the real program did.
@@ -14,23 +16,6 @@ struct Outcome {
 
 /// Runs the program with these arguments in a working folder.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
-
-/// A folder of one test, removed with everything in it at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  void write(const std::string& name, const std::string& content) const;
-  std::string read(const std::string& name) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 /// All files below a folder.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder);

@@ -1,11 +1,9 @@
 #include "conchoid/core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <sstream>
 
 #include "conchoid/core/error.hpp"
+#include "temporary_folder.hpp"
 
 using namespace conchoid;
 namespace fs = std::filesystem;
@@ -14,24 +12,11 @@ namespace {
 
 class AtomicFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("conchoid-" + std::to_string(::getpid()) + info->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string content(const fs::path& file) const {
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
   std::ptrdiff_t files() const {
-    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace
@@ -41,25 +26,25 @@ TEST_F(AtomicFileTest, AppearsOnlyWhenCommitted) {
   file.stream() << "whole";
   EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
   file.commit();
-  EXPECT_EQ(content(folder_ / "a.txt"), "whole");
+  EXPECT_EQ(folder_.read("a.txt"), "whole");
   EXPECT_EQ(files(), 1);
 }
 
 TEST_F(AtomicFileTest, AnErrorLeavesTheOldFileAndNothingElse) {
-  std::ofstream(folder_ / "a.txt") << "old";
+  folder_.write("a.txt", "old");
   try {
     AtomicFile file(folder_ / "a.txt");
     file.stream() << "half of the n";
     throw ComputationError("interrupted");
   } catch (const ComputationError&) {
   }
-  EXPECT_EQ(content(folder_ / "a.txt"), "old");
+  EXPECT_EQ(folder_.read("a.txt"), "old");
   EXPECT_EQ(files(), 1);
 }
 
 TEST_F(AtomicFileTest, AFolderThatDoesNotExistIsTheUsersError) {
   try {
-    AtomicFile file(folder_ / "nowhere" / "a.txt");
+    AtomicFile file(folder_ / "nowhere/a.txt");
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("nowhere/a.txt"), std::string::npos) << error.what();
@@ -67,7 +52,7 @@ TEST_F(AtomicFileTest, AFolderThatDoesNotExistIsTheUsersError) {
 }
 
 TEST_F(AtomicFileTest, AFolderInTheWayIsRefused) {
-  fs::create_directories(folder_ / "taken" / "inside");
+  fs::create_directories(folder_ / "taken/inside");
   AtomicFile file(folder_ / "taken");
   file.stream() << "x";
   EXPECT_THROW(file.commit(), InputError);

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 
+#include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid::testing {
+
+inline const std::shared_ptr<const GrowthLaw> kLaw =
+    std::make_shared<HoopStressLaw>(ElasticConstants{3.1e9, 0.327});
 
 /// Flat disc, normal +z: ring k has 6k nodes, 6 rings² triangles. Radii of the rings are r(k).
 template <class Radius>

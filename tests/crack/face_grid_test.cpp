@@ -106,12 +106,12 @@ struct Cracks {
         if (sheet.state[front.nodes[k]] == FrontState::active)
           steps.push_back({front.nodes[k], frames[k], angle, 2 * kToughness});
       if (!steps.empty())
-        advance_fronts(
-            sheet, fine, steps,
-            [](const Vec3&) {
-              return Toughness{kToughness, Vec3::Zero()};
-            },
-            kEdge);
+        advance_fronts(sheet, fine, steps,
+                       {kLaw,
+                        [](const Vec3&) {
+                          return Toughness{kToughness, Vec3::Zero()};
+                        }},
+                       kEdge);
     }
   }
 };
@@ -135,8 +135,8 @@ TEST(FineFront, StopsJustBehindTheFaceOfAnotherCrack) {
   EXPECT_GT(farthest, 1);
   EXPECT_LT(farthest, 1 + kSpacing);
   EXPECT_LT(back, -1.2);  // away from the wall it has grown on
-  EXPECT_FALSE(cracks.fine.stopped_riders().empty());
-  for (NodeId n : cracks.fine.stopped_riders())
+  EXPECT_FALSE(cracks.fine.stopped_nodes().empty());
+  for (NodeId n : cracks.fine.stopped_nodes())
     EXPECT_EQ(cracks.sheet.state[n], FrontState::arrested);
 }
 

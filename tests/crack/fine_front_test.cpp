@@ -1,5 +1,4 @@
 #include "conchoid/crack/fine/fine_front.hpp"
-#include "conchoid/crack/closing/advance_fronts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,56 +6,12 @@
 #include <set>
 
 #include "crack_samples.hpp"
+#include "growth.hpp"
 
 using namespace conchoid;
 using namespace conchoid::testing;
 
 namespace {
-
-constexpr double kEdge = 0.2, kSpacing = 0.02, kToughness = 1e6;
-const FineFrontSettings kSettings{.resolution = kEdge, .spacing = kSpacing};
-
-Toughness homogeneous(const Vec3&) {
-  return {kToughness, Vec3::Zero()};
-}
-
-/// K_eff that moves a node by the given share of r̄ per frame.
-double intensity_for(double share) {
-  return kToughness / std::sqrt(1 - share);
-}
-
-template <class Angle, class Share>
-std::vector<FrontStep> steps_of(const CrackSheet& sheet, Angle angle, Share share) {
-  std::vector<FrontStep> steps;
-  for (const SheetFront& front : sheet.fronts) {
-    const auto frames = front_frames(sheet, front);
-    for (std::size_t i = 0; i < front.nodes.size(); ++i)
-      if (sheet.state[front.nodes[i]] == FrontState::active)
-        steps.push_back(
-            {front.nodes[i], frames[i], angle(front.nodes[i]), intensity_for(share(front.nodes[i]))});
-  }
-  return steps;
-}
-
-struct Growth {
-  CrackSheet sheet;
-  FineFront fine;
-  explicit Growth(const TriMesh& mesh, FineFrontSettings settings = kSettings)
-      : sheet([&] {
-          CrackSheet s;
-          append_part(s, mesh);
-          return s;
-        }()),
-        fine(sheet, settings) {}
-
-  template <class Angle, class Share>
-  void frame(Angle angle, Share share) {
-    advance_fronts(sheet, fine, steps_of(sheet, angle, share), homogeneous, kEdge);
-  }
-  void straight_frame(double share) {
-    frame([](NodeId) { return 0.0; }, [=](NodeId) { return share; });
-  }
-};
 
 /// Every edge is walked at most once each way, and what is open are the given fronts; no triangle is flat or
 /// turned against its neighbour by more than `fold` [rad].
@@ -90,7 +45,7 @@ std::size_t marker_count(const FineFront& fine) {
   return count;
 }
 
-/// Every coarse front node lies exactly on the marker it rides on.
+/// Every coarse front node lies exactly on the marker it is attached to.
 void expect_agreement(const Growth& growth) {
   ASSERT_EQ(growth.fine.curves().size(), growth.sheet.fronts.size());
   for (std::size_t f = 0; f < growth.sheet.fronts.size(); ++f) {
@@ -203,8 +158,9 @@ TEST(FineFront, ATougherHalfIsFeltByTheMarkers) {
   Growth growth(disc(1, 5));
   const auto layered = [](const Vec3& x) { return Toughness{x.x() > 0.005 ? 2.5e6 : 1e6, Vec3::Zero()}; };
   const auto steps = steps_of(
-      growth.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return 0.75; });  // K_eff = 2 MPa√m
-  advance_fronts(growth.sheet, growth.fine, steps, layered, kEdge);
+      growth.sheet, [](NodeId) { return 0.0; },
+      [](NodeId) { return intensity_for(0.75); });  // K_eff = 2 MPa√m
+  advance_fronts(growth.sheet, growth.fine, steps, {kLaw, layered}, kEdge);
   for (const Marker& m : growth.fine.curves()[0].markers) {
     if (m.position.x() > 0.02) {
       EXPECT_LT(m.position.norm(), 1 + 1e-9);
@@ -257,8 +213,8 @@ TEST(FineFront, ScalingByAPowerOfTwoKeepsTheBits) {
     one.straight_frame(0.55);
     advance_fronts(two.sheet, two.fine,
                    steps_of(
-                       two.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return 0.55; }),
-                   homogeneous, 8 * kEdge);
+                       two.sheet, [](NodeId) { return 0.0; }, [](NodeId) { return intensity_for(0.55); }),
+                   {kLaw, homogeneous}, 8 * kEdge);
   }
   ASSERT_EQ(one.fine.surface().corners, two.fine.surface().corners);
   for (std::size_t i = 0; i < one.fine.surface().node_count(); ++i)
@@ -298,7 +254,7 @@ TEST(DrawnNodes, TheNeighbourOutsideFollows) {
   for (NodeId n : growth.sheet.fronts[0].nodes)
     if (growth.sheet.mesh.positions[n].y() > 1e-9) growth.sheet.state[n] = FrontState::outside;
   const auto steps = steps_of(
-      growth.sheet, [](NodeId) { return 0.2; }, [](NodeId) { return 0.5; });
+      growth.sheet, [](NodeId) { return 0.2; }, [](NodeId) { return intensity_for(0.5); });
   const auto all = with_drawn_nodes(growth.sheet, steps);
   ASSERT_EQ(all.size(), steps.size() + 2);
   EXPECT_DOUBLE_EQ(all.back().angle, 0.2);

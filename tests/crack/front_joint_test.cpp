@@ -10,49 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "conchoid/crack/closing/advance_fronts.hpp"
 #include "crack_samples.hpp"
+#include "growth.hpp"
 
 // Fronts that meet become one.
 using namespace conchoid;
 using namespace conchoid::testing;
 
 namespace {
-
-constexpr double kEdge = 0.2, kSpacing = 0.02, kToughness = 1e6;
-
-Toughness homogeneous(const Vec3&) {
-  return {kToughness, Vec3::Zero()};
-}
-
-struct Growth {
-  CrackSheet sheet;
-  FineFront fine;
-  std::optional<FineFront> led;
-
-  explicit Growth(const std::vector<TriMesh>& parts, std::optional<double> led_spacing = std::nullopt)
-      : sheet([&] {
-          CrackSheet s;
-          for (const TriMesh& part : parts)
-            append_part(s, part);
-          return s;
-        }()),
-        fine(sheet, {.resolution = kEdge, .spacing = kSpacing}) {
-    if (led_spacing) led.emplace(sheet, FineFrontSettings{.resolution = kEdge, .spacing = *led_spacing});
-  }
-
-  /// Straight on by the given share of r̄.
-  void frame(double share) {
-    std::vector<FrontStep> steps;
-    for (const SheetFront& front : sheet.fronts) {
-      const auto frames = front_frames(sheet, front);
-      for (std::size_t i = 0; i < front.nodes.size(); ++i)
-        if (sheet.state[front.nodes[i]] == FrontState::active)
-          steps.push_back({front.nodes[i], frames[i], 0, kToughness / std::sqrt(1 - share)});
-    }
-    advance_fronts(sheet, fine, steps, homogeneous, kEdge, led ? &*led : nullptr);
-  }
-};
 
 /// Every edge is walked once each way or lies on the boundary. @return number of boundary edges
 std::size_t boundary_edges(const TriMesh& mesh) {
@@ -86,8 +51,8 @@ std::size_t marker_count(const FineFront& fine) {
 void expect_sound(const Growth& growth) {
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   EXPECT_EQ(boundary_edges(growth.fine.surface()), marker_count(growth.fine));
-  if (growth.led) {
-    EXPECT_EQ(boundary_edges(growth.led->surface()), marker_count(*growth.led));
+  if (growth.follower) {
+    EXPECT_EQ(boundary_edges(growth.follower->surface()), marker_count(*growth.follower));
   }
   for (const TriMesh* mesh : {&growth.sheet.mesh, &growth.fine.surface()})
     for (std::size_t t = 0; t < mesh->triangle_count(); ++t)
@@ -113,7 +78,7 @@ TEST(FrontJoint, TwoDiscsInOnePlaneBecomeOneCrack) {
     double radius = 0.6;
     for (int frame = 0; frame < 9; ++frame) {
       SCOPED_TRACE(::testing::Message() << "shift " << shift << " frame " << frame);
-      growth.frame(0.6);
+      growth.straight_frame(0.6);
       radius += 0.6 * kEdge;
       expect_sound(growth);
     }
@@ -122,15 +87,15 @@ TEST(FrontJoint, TwoDiscsInOnePlaneBecomeOneCrack) {
     const double exact = united_area(radius, std::hypot(1.8, shift));
     EXPECT_NEAR(surface_area(growth.sheet.mesh) / exact, 1, 0.04);
     EXPECT_NEAR(surface_area(growth.fine.surface()) / exact, 1, 0.04);
-    EXPECT_NEAR(surface_area(growth.led->surface()) / surface_area(growth.fine.surface()), 1, 0.005);
+    EXPECT_NEAR(surface_area(growth.follower->surface()) / surface_area(growth.fine.surface()), 1, 0.005);
     const auto& front = growth.sheet.fronts[0];
     for (const NodeId n : front.nodes)
       EXPECT_EQ(growth.sheet.state[n], FrontState::active);
-    std::map<NodeId, Vec3> rides;
+    std::map<NodeId, Vec3> attached;
     for (const Marker& m : growth.fine.curves()[0].markers)
-      if (m.coarse.valid()) rides.emplace(m.coarse, m.position);
+      if (m.coarse.valid()) attached.emplace(m.coarse, m.position);
     for (const NodeId n : front.nodes)
-      EXPECT_LT((rides.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
+      EXPECT_LT((attached.at(n) - growth.sheet.mesh.positions[n]).norm(), 1e-12);
   }
 }
 
@@ -141,7 +106,7 @@ TEST(FrontJoint, CracksOfOppositeOrientationStopBeforeEachOther) {
     std::swap(c[1], c[2]);
   Growth growth({disc_at(0.6, 3, {-0.9, 0, 0}), turned});
   for (int frame = 0; frame < 5; ++frame)
-    growth.frame(0.6);
+    growth.straight_frame(0.6);
   EXPECT_EQ(growth.sheet.fronts.size(), 2u);
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   std::size_t arrested = 0;
@@ -181,7 +146,7 @@ TEST(FrontJoint, ASlotCloses) {
         growth.sheet.state[n] = FrontState::arrested;
     }
   for (int frame = 0; frame < 8 && growth.sheet.fronts.size() > 1; ++frame)
-    growth.frame(0.5);
+    growth.straight_frame(0.5);
   ASSERT_EQ(growth.sheet.fronts.size(), 1u);
   EXPECT_EQ(boundary_edges(growth.sheet.mesh), front_nodes(growth.sheet));
   EXPECT_EQ(boundary_edges(growth.fine.surface()), marker_count(growth.fine));

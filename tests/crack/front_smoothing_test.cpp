@@ -75,16 +75,16 @@ TEST(FrontSmoothing, NeighboursInARowAgree) {
   EXPECT_EQ(alone, (std::vector<double>{1, -1, 1, -1, 1, -1, 1, -1}));  // no three in a row
 }
 
-TEST(ToughnessTurn, GoesToTheWeakerSideAndNoFurtherThanTheIntensityAllows) {
-  EXPECT_EQ(toughness_turn(0, 2e6, 1e6), 0);
-  EXPECT_EQ(toughness_turn(1, 1e6, 1e6), 0);  // nothing to spare
-  EXPECT_EQ(toughness_turn(0.3, 2e6, 1e6), -toughness_turn(-0.3, 2e6, 1e6));
+TEST(ToughnessDeflection, GoesToTheWeakerSideAndNoFurtherThanTheIntensityAllows) {
+  EXPECT_EQ(toughness_deflection(0, 2e6, 1e6), 0);
+  EXPECT_EQ(toughness_deflection(1, 1e6, 1e6), 0);  // nothing to spare
+  EXPECT_EQ(toughness_deflection(0.3, 2e6, 1e6), -toughness_deflection(-0.3, 2e6, 1e6));
   const double widest = 2 * std::acos(std::cbrt(0.5));
-  EXPECT_NEAR(toughness_turn(1e6, 2e6, 1e6), std::min(widest, std::acos(1.0 / 3)), 1e-6);
-  EXPECT_NEAR(hoop_intensity({1.1e6, 0, 0}, toughness_turn(1e6, 1.1e6, 1e6)), 1e6,
-              10);                                                       // just enough is left
-  EXPECT_NEAR(toughness_turn(1e9, 1e9, 1e6), std::acos(1.0 / 3), 1e-6);  // 70.5° at most
-  EXPECT_LT(toughness_turn(0.1, 2e6, 1e6), toughness_turn(0.2, 2e6, 1e6));
+  EXPECT_NEAR(toughness_deflection(1e6, 2e6, 1e6), std::min(widest, std::acos(1.0 / 3)), 1e-6);
+  EXPECT_NEAR(hoop_intensity({1.1e6, 0, 0}, toughness_deflection(1e6, 1.1e6, 1e6)), 1e6,
+              10);                                                             // just enough is left
+  EXPECT_NEAR(toughness_deflection(1e9, 1e9, 1e6), std::acos(1.0 / 3), 1e-6);  // 70.5° at most
+  EXPECT_LT(toughness_deflection(0.1, 2e6, 1e6), toughness_deflection(0.2, 2e6, 1e6));
 }
 
 constexpr double kEdge = 0.2, kSpacing = 0.02;
@@ -107,7 +107,7 @@ struct Grown {
         for (std::size_t i = 0; i < front.nodes.size(); ++i)
           steps.push_back({front.nodes[i], frames_of[i], 0, 2e6});
       }
-      advance_fronts(sheet, fine, steps, toughness, kEdge);
+      advance_fronts(sheet, fine, steps, {kLaw, toughness}, kEdge);
     }
     fine.finish();
   }

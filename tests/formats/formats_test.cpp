@@ -1,53 +1,30 @@
 #include "conchoid/formats/formats.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "refusal.hpp"
+#include "temporary_folder.hpp"
 
 namespace conchoid {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, removed afterwards.
 class MeshFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        fs::temp_directory_path() / (std::string("conchoid_") + info->name() + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& bytes) const {
-    const fs::path path = folder_ / name;
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
-  }
-  std::string bytes_of(const fs::path& path) const {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
-  std::string message_of(const fs::path& path) const {
-    try {
-      read_mesh(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+  static std::string message_of(const fs::path& path) {
+    return test::refusal([&] { read_mesh(path); });
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 template <class T>
@@ -117,12 +94,12 @@ TEST_F(MeshFiles, StlReadsBackInSinglePrecisionAsOneClosedSurface) {
 }
 
 TEST_F(MeshFiles, HandWrittenFilesOfEveryFlavourAreTheSameTetrahedron) {
-  expect_tetrahedron(read_mesh(write("a.ply", tetrahedron_ascii_ply)));
-  expect_tetrahedron(read_mesh(write("little.ply", binary_tetrahedron_ply(std::endian::little))));
-  expect_tetrahedron(read_mesh(write("big.ply", binary_tetrahedron_ply(std::endian::big))));
-  expect_tetrahedron(read_mesh(write("a.off", tetrahedron_off)));
-  expect_tetrahedron(read_mesh(write("a.obj", tetrahedron_obj)));
-  expect_tetrahedron(read_mesh(write(
+  expect_tetrahedron(read_mesh(folder_.write("a.ply", tetrahedron_ascii_ply)));
+  expect_tetrahedron(read_mesh(folder_.write("little.ply", binary_tetrahedron_ply(std::endian::little))));
+  expect_tetrahedron(read_mesh(folder_.write("big.ply", binary_tetrahedron_ply(std::endian::big))));
+  expect_tetrahedron(read_mesh(folder_.write("a.off", tetrahedron_off)));
+  expect_tetrahedron(read_mesh(folder_.write("a.obj", tetrahedron_obj)));
+  expect_tetrahedron(read_mesh(folder_.write(
       "b.obj",
       "# comment\r\nmtllib x.mtl\r\nv 0 0 0 1.0\r\nv 1 0 0\r\nv 0 1 0\r\nv 0 0 1\r\nvn 0 0 1\r\ng part\r\n"
       "f 1//1 3//1 2//1\r\nf 1/1/1 2/2/2 4/3/3\r\nf -3 -2 -1\r\nf 1 4 3 # last\r\n")));
@@ -131,14 +108,14 @@ TEST_F(MeshFiles, HandWrittenFilesOfEveryFlavourAreTheSameTetrahedron) {
        {"vertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\n", "vertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\n",
         "vertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\n", "vertex 0 0 0\nvertex 0 0 1\nvertex -0 1e0 0\n"})
     stl += std::string("facet normal 0 0 0\nouter loop\n") + corners + "endloop\nendfacet\n";
-  expect_tetrahedron(read_mesh(write("a.stl", stl + "endsolid tetrahedron\n")));
+  expect_tetrahedron(read_mesh(folder_.write("a.stl", stl + "endsolid tetrahedron\n")));
 }
 
 TEST_F(MeshFiles, PolygonsBecomeFans) {
   const TriMesh cube = read_mesh(
-      write("cube.off",
-            "OFF # a cube of quads\n8 6 12\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
-            "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
+      folder_.write("cube.off",
+                    "OFF # a cube of quads\n8 6 12\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                    "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
   EXPECT_EQ(cube.triangle_count(), 12u);
   EXPECT_TRUE(find_defects(cube).empty());
   EXPECT_DOUBLE_EQ(enclosed_volume(cube), 1.0);
@@ -216,13 +193,13 @@ std::vector<BrokenFile> broken_files() {
 
 TEST_F(MeshFiles, BrokenFilesAreRefusedWithPlaceAndRemedy) {
   for (const BrokenFile& broken : broken_files()) {
-    const std::string message = message_of(write(broken.name, broken.bytes));
+    const std::string message = message_of(folder_.write(broken.name, broken.bytes));
     EXPECT_NE(message.find(broken.name), std::string::npos) << message;
     for (const std::string& fragment : broken.fragments)
       EXPECT_NE(message.find(fragment), std::string::npos)
           << broken.name << ": '" << fragment << "' not in: " << message;
   }
-  EXPECT_NE(message_of(folder_ / "missing.ply").find("no such mesh file"), std::string::npos);
+  EXPECT_NE(message_of(folder_ / "missing.ply").find("check that the file exists"), std::string::npos);
   fs::create_directory(folder_ / "folder.ply");
   EXPECT_NE(message_of(folder_ / "folder.ply").find("folder"), std::string::npos);
 }
@@ -231,9 +208,9 @@ TEST_F(MeshFiles, FilesCutAnywhereAreRefusedOrReadWhole) {
   const TriMesh mesh = icosphere(1, 0);
   for (const char* name : {"a.ply", "a.stl", "a.off", "a.obj"}) {
     write_mesh(folder_ / name, mesh);
-    const std::string whole = bytes_of(folder_ / name);
+    const std::string whole = folder_.read(name);
     for (std::size_t size = 0; size + 2 < whole.size(); size += 7) {
-      const fs::path path = write(std::string("cut_") + name, whole.substr(0, size));
+      const fs::path path = folder_.write(std::string("cut_") + name, whole.substr(0, size));
       if (std::string_view(name) == "a.obj") {  // has no count: may be read up to the cut
         try {
           EXPECT_LT(read_mesh(path).triangle_count(), mesh.triangle_count());
@@ -252,12 +229,12 @@ TEST_F(MeshFiles, DamagedBytesNeverCrash) {
   auto next = [&] { return random = random * 1664525u + 1013904223u, random >> 8; };
   for (const char* name : {"a.ply", "a.stl", "a.off", "a.obj"}) {
     write_mesh(folder_ / name, mesh);
-    const std::string whole = bytes_of(folder_ / name);
+    const std::string whole = folder_.read(name);
     for (int trial = 0; trial < 300; ++trial) {
       std::string damaged = whole;
       for (int k = 0; k < 3; ++k)
         damaged[next() % damaged.size()] = static_cast<char>(next());
-      const fs::path path = write(std::string("damaged_") + name, damaged);
+      const fs::path path = folder_.write(std::string("damaged_") + name, damaged);
       try {
         const TriMesh read = read_mesh(path);
         for (const auto& c : read.corners)
@@ -272,9 +249,9 @@ TEST_F(MeshFiles, DamagedBytesNeverCrash) {
 
 TEST_F(MeshFiles, NothingIsWrittenWhereThePathIsImpossible) {
   const TriMesh mesh = icosphere(1, 0);
-  EXPECT_THROW(write_mesh(folder_ / "none" / "a.ply", mesh), InputError);
+  EXPECT_THROW(write_mesh(folder_ / "none/a.ply", mesh), InputError);
   EXPECT_THROW(write_mesh(folder_ / "a.xyz", mesh), InputError);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 }  // namespace

@@ -1,24 +1,17 @@
 #include "conchoid/mesh/surface_attributes.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/formats/formats.hpp"
+#include "temporary_folder.hpp"
 
 namespace conchoid {
 namespace {
 
 AttributedMesh read_text(const std::string& ending, const std::string& text) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("conchoid_attributes_" + std::to_string(::getpid()) + ending);
-  std::ofstream(path, std::ios::binary) << text;
-  AttributedMesh surface = read_surface(path);
-  std::filesystem::remove(path);
-  return surface;
+  const test::TemporaryFolder folder;
+  return read_surface(folder.write("surface" + ending, text));
 }
 
 // A square pyramid: the base is a polygon of its own material, two sides share an edge that is a seam.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "intersect/cut_shapes.hpp"
+#include "mesh/mesh_checks.hpp"
 
 namespace conchoid {
 namespace {
@@ -368,7 +369,7 @@ TEST(Corefine, ReflectedAndScaledInputGivesTheSameBits) {
           x /= factor;
         expect_same_bits(scaled, cut);
       }
-      CutComplex reflected = corefine(mirrored(s.body), mirrored(s.sheet), {merge});
+      CutComplex reflected = corefine(mirrored(s.body, 0), mirrored(s.sheet, 0), {merge});
       for (Vec3& x : reflected.positions)
         x.x() = -x.x();
       turn_round(reflected.surface);

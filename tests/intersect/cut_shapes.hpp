@@ -143,13 +143,4 @@ TriMesh mapped(TriMesh mesh, const Map& map) {
   return mesh;
 }
 
-/// Same solid after x → −x: orientation turned with it.
-inline TriMesh mirrored(TriMesh mesh) {
-  for (Vec3& x : mesh.positions)
-    x.x() = -x.x();
-  for (auto& c : mesh.corners)
-    std::swap(c[1], c[2]);
-  return mesh;
-}
-
 }  // namespace conchoid::shapes

@@ -9,7 +9,7 @@
 
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/io/fragments_io.hpp"
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 #include "intersect/cut_shapes.hpp"
 #include "io/program_output.hpp"
 #include "io/samples.hpp"
@@ -78,7 +78,7 @@ std::vector<Fragment> painted_pieces() {
   paint.materials = {"north", "south"};
   for (std::size_t t = 0; t < body.triangle_count(); ++t)
     paint.material.push_back(centroid(body, TriId(t)).z() > 0 ? 0 : 1);
-  dress_fragments(pieces, body, paint, {});
+  transfer_attributes(pieces, body, paint, {});
   return pieces;
 }
 
@@ -86,7 +86,7 @@ std::vector<Fragment> painted_pieces() {
 
 TEST(Blender, ImportsPiecesWithCountsVolumesAndMaterials) {
   if (!is_there()) GTEST_SKIP() << "Blender is not installed";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::vector<Fragment> pieces = painted_pieces();
   ASSERT_EQ(pieces.size(), 4u);
   write_fragments_glb(folder / "f.glb", pieces, fragment_contacts(pieces));

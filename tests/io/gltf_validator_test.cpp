@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conchoid/io/fragments_io.hpp"
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 #include "intersect/cut_shapes.hpp"
 #include "io/program_output.hpp"
 #include "io/samples.hpp"
@@ -27,7 +27,7 @@ bool is_there() {
 }
 
 void expect_valid(const std::vector<Fragment>& pieces) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_fragments_glb(folder / "f.glb", pieces, fragment_contacts(pieces));
   const auto report = nlohmann::json::parse(output_of("node '" + (validator / "validate.mjs").string() +
                                                       "' '" + (folder / "f.glb").string() + "'"));
@@ -58,6 +58,6 @@ TEST(GltfValidator, AcceptsPieces) {
     const Triangle x = body.triangle(TriId(t));
     paint.normal.push_back({x[0], x[1], x[2]});
   }
-  dress_fragments(pieces, body, paint, {});
+  transfer_attributes(pieces, body, paint, {});
   expect_valid(pieces);
 }

@@ -6,13 +6,13 @@
 
 #include <numbers>
 
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/context.hpp"
 #include "io/samples.hpp"
 
 using namespace conchoid;
 
 TEST(FragmentsVdb, OpenVdbFindsEveryPieceWithItsVolume) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto pieces = broken_cube(0.1);
   for (Fragment& f : pieces)  // far from the origin: no figures are lost
     for (Vec3& x : f.mesh.positions)
@@ -42,14 +42,12 @@ TEST(FragmentsVdb, OpenVdbFindsEveryPieceWithItsVolume) {
 }
 
 TEST(FragmentsVdb, SameBytesForEveryThreadCount) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::string bytes[2];
   for (int threads = 1; threads <= 2; ++threads) {
-    set_thread_count(threads);
-    write_fragments_vdb(folder / "f.vdb", broken_cube(0.1), 0.01);
+    ExecutionContext(threads).run([&] { write_fragments_vdb(folder / "f.vdb", broken_cube(0.1), 0.01); });
     bytes[threads - 1] = file_content(folder / "f.vdb");
   }
-  set_thread_count(0);
   EXPECT_GT(bytes[0].size(), 10000u);
   EXPECT_TRUE(bytes[0] == bytes[1]);
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/io/stroke_font.hpp"
 #include "io/samples.hpp"
 
@@ -28,7 +28,7 @@ std::size_t warm_pixels(const Image& image, int from, int to) {
 }  // namespace
 
 TEST(Picture, PngDecodesToWhatWasRendered) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::vector<PicturePanel> panels{{exploded(broken_cube(0.1), 0.8), "two pieces", "", ""}};
   write_picture(folder / "p.png", panels, small);
   const Image expected = render_picture(panels, small);
@@ -91,13 +91,13 @@ TEST(Picture, SameBitsForEveryThreadCountAndSizeOfTheWorld) {
     m.edges = true;
     return std::vector<PicturePanel>{{{m}, "sheet", "caption", "value"}};
   };
-  set_thread_count(1);
-  const Image one = render_picture(panels(1, Vec3::Zero()), small);
-  set_thread_count(2);
-  EXPECT_EQ(render_picture(panels(1, Vec3::Zero()), small).rgb, one.rgb);
-  EXPECT_EQ(render_picture(panels(1024, Vec3::Zero()), small).rgb, one.rgb);
-  const Image far = render_picture(panels(1, Vec3(1e6, -1e6, 1e6)), small);
-  set_thread_count(0);
+  const auto draw = [&](int threads, double scale, const Vec3& shift) {
+    return ExecutionContext(threads).run([&] { return render_picture(panels(scale, shift), small); });
+  };
+  const Image one = draw(1, 1, Vec3::Zero());
+  EXPECT_EQ(draw(2, 1, Vec3::Zero()).rgb, one.rgb);
+  EXPECT_EQ(draw(2, 1024, Vec3::Zero()).rgb, one.rgb);
+  const Image far = draw(2, 1, Vec3(1e6, -1e6, 1e6));
   std::size_t different = 0;
   for (std::size_t i = 0; i < one.rgb.size(); ++i)
     different += std::abs(int(one.rgb[i]) - int(far.rgb[i])) > 24;

@@ -9,6 +9,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "io/samples.hpp"
+#include "refusal.hpp"
 
 using namespace conchoid;
 namespace fs = std::filesystem;
@@ -35,7 +36,7 @@ RunDocument document_of(const std::vector<Fragment>& fragments) {
   d.scene_file = "cube.toml";
   d.scene_text = "[body]\nmodel = \"cube\"  # \"quoted\" \\ and µ\n";
   d.method = "bem";
-  d.stop = "separated";
+  d.stop = StopReason::separated;
   d.frames = 17;
   d.initial_triangles = 120;
   d.final_triangles = 540;
@@ -81,20 +82,10 @@ void write_whole_run(const fs::path& path) {
   folder.write_run_json(document_of(broken_cube(0.1)));
 }
 
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 }  // namespace
 
 TEST(FrontCsv, RoundTripIsExact) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_front_csv(folder / "front.csv", two_rows());
   const std::string text = file_content(folder / "front.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')),
@@ -114,22 +105,22 @@ TEST(FrontCsv, RoundTripIsExact) {
 }
 
 TEST(FrontCsv, DamageIsNamedWithItsLine) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_front_csv(folder / "front.csv", two_rows());
   const std::string text = file_content(folder / "front.csv");
   std::ofstream(folder / "cut.csv") << text.substr(0, text.size() - 30);
-  EXPECT_NE(refusal([&] { read_front_csv(folder / "cut.csv"); }).find("line 3"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { read_front_csv(folder / "cut.csv"); }).find("line 3"), std::string::npos);
   std::ofstream(folder / "foreign.csv") << "a,b\n1,2\n";
-  EXPECT_NE(refusal([&] { read_front_csv(folder / "foreign.csv"); }).find("'frame' is missing"),
+  EXPECT_NE(test::refusal([&] { read_front_csv(folder / "foreign.csv"); }).find("'frame' is missing"),
             std::string::npos);
 }
 
 TEST(RunFolder, WhatWasWrittenComesBack) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_whole_run(scratch / "a/b/run");
   const RunData run = read_run(scratch / "a/b/run");
   EXPECT_EQ(run.document.scene_text, document_of({}).scene_text);
-  EXPECT_EQ(run.document.stop, "separated");
+  EXPECT_EQ(run.document.stop, StopReason::separated);
   EXPECT_EQ(run.document.frames, 17);
   EXPECT_EQ(run.document.hash, "0123456789abcdef");
   ASSERT_TRUE(run.document.body.has_value());
@@ -165,7 +156,7 @@ TEST(RunFolder, JsonOfTheCommandLineHasTheContractsKeys) {
 }
 
 TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_whole_run(scratch / "run");
   std::ofstream(scratch / "run/notes.txt") << "mine";
   RunFolder again(scratch / "run");
@@ -176,15 +167,16 @@ TEST(RunFolder, EarlierRunIsReplacedButForeignFilesAreSafe) {
 
   fs::create_directory(scratch / "thesis");
   std::ofstream(scratch / "thesis/chapter.tex") << "x";
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "thesis"); }).find("new folder"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "thesis"); }).find("new folder"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch / "thesis"), fs::directory_iterator()), 1);
   std::ofstream(scratch / "file") << "x";
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "file"); }).find("is a file"), std::string::npos);
-  EXPECT_NE(refusal([&] { RunFolder(scratch / "file/below"); }).find("cannot be written"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "file"); }).find("is a file"), std::string::npos);
+  EXPECT_NE(test::refusal([&] { RunFolder(scratch / "file/below"); }).find("cannot be written"),
+            std::string::npos);
 }
 
 TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const fs::path run = scratch / "run";
   fs::create_directories(run);
   std::ofstream(run / "run.pvd.tmp-1-0") << "half";
@@ -198,14 +190,14 @@ TEST(RunFolder, WhatAKilledRunLeftIsReplaced) {
 }
 
 TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
-  const ScratchFolder scratch;
-  EXPECT_NE(refusal([&] { read_run(scratch / "none"); }).find("not a folder"), std::string::npos);
+  const TemporaryFolder scratch;
+  EXPECT_NE(test::refusal([&] { read_run(scratch / "none"); }).find("not a folder"), std::string::npos);
   for (const char* name : {"run.json", "crack.ply", "front.csv", "fragments/fragment_001.ply"}) {
     const fs::path path = scratch / "run";
     fs::remove_all(path);
     write_whole_run(path);
     fs::remove(path / name);
-    EXPECT_NE(refusal([&] { read_run(path); }).find(name), std::string::npos) << name;
+    EXPECT_NE(test::refusal([&] { read_run(path); }).find(name), std::string::npos) << name;
   }
   const fs::path path = scratch / "run";
   write_whole_run(path);
@@ -213,12 +205,12 @@ TEST(RunFolder, HalfAndForeignFoldersAreRefusedByName) {
        {"", "{", "[]", "{\"format\":\"other\"}", "{\"format\":\"conchoid-run\",\"version\":99}",
         "{\"format\":\"conchoid-run\",\"version\":1,\"frames\":\"many\"}"}) {
     std::ofstream(path / "run.json") << text;
-    EXPECT_NE(refusal([&] { read_run(path); }).find("run.json"), std::string::npos) << text;
+    EXPECT_NE(test::refusal([&] { read_run(path); }).find("run.json"), std::string::npos) << text;
   }
 }
 
 TEST(RunFolder, ExaggeratedFramesShowTheOpenCrack) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   RunFolder folder(scratch / "run");
   FrameData data = frame_data();
   folder.write_frame(1, data);

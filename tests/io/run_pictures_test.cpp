@@ -16,7 +16,7 @@ namespace {
 RunData broken_run() {
   RunData run;
   run.document.method = "bem";
-  run.document.stop = "separated";
+  run.document.stop = StopReason::separated;
   run.document.frames = 5;
   run.crack = sheet(10, 0);
   run.fragments = broken_cube(0);
@@ -68,7 +68,7 @@ TEST(RunPictures, CrackAloneIsNothingElse) {
 }
 
 TEST(RunPictures, OpeningOfTheLastFrameExaggerated) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_frames(scratch / "run");
   const RunData run = broken_run();
   const PicturePanel panel = run_panel(run, scratch / "run", {.view = RunView::opening, .exaggerate = 1e4});
@@ -79,7 +79,7 @@ TEST(RunPictures, OpeningOfTheLastFrameExaggerated) {
 }
 
 TEST(RunPictures, ContactSheetEndsWithTheLastFrame) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   write_frames(scratch / "run");
   const auto panels = frame_panels(broken_run(), scratch / "run", 3, {});
   ASSERT_EQ(panels.size(), 3u);
@@ -96,7 +96,7 @@ TEST(RunPictures, ContactSheetEndsWithTheLastFrame) {
 }
 
 TEST(RunPictures, APieceThatHasComeOffHasNoOpening) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   RunFolder folder = write_frames(scratch / "run");
   FrameData data;
   data.body = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
@@ -111,7 +111,7 @@ TEST(RunPictures, APieceThatHasComeOffHasNoOpening) {
 }
 
 TEST(RunPictures, WithoutFramesThereIsAMessage) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   EXPECT_THROW(frame_panels(broken_run(), scratch / "nowhere", 3, {}), InputError);
   EXPECT_THROW(run_view_from_name("smoke"), InputError);
 }

@@ -68,7 +68,7 @@ std::vector<T> array(const std::string& xml, const std::string& name) {
 }  // namespace
 
 TEST(Vtu, MeshAndFieldsComeBackBitForBit) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const TriMesh mesh = box({-0.5, -0.1, 1.0 / 3.0}, {0.5, 0.5, 0.7});
   std::vector<Vec3> displacement;
   std::vector<double> stress;
@@ -100,7 +100,7 @@ TEST(Vtu, MeshAndFieldsComeBackBitForBit) {
 }
 
 TEST(Vtu, ReaderTakesBackWhatWasWritten) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const TriMesh mesh = box({-0.5, -0.1, 1.0 / 3.0}, {0.5, 0.5, 0.7});
   const std::vector<Vec3> u(8, Vec3(0.1, -1e-300, 1e300));
   Mat3 stress;
@@ -120,7 +120,7 @@ TEST(Vtu, ReaderTakesBackWhatWasWritten) {
 }
 
 TEST(Vtu, DamagedFilesAreRefused) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_vtu(folder / "m.vtu", box({0, 0, 0}, {1, 1, 1}), {}, {});
   const std::string whole = file_content(folder / "m.vtu");
   for (const std::size_t length :
@@ -132,14 +132,14 @@ TEST(Vtu, DamagedFilesAreRefused) {
 }
 
 TEST(Vtu, FieldOfWrongLengthIsOurBug) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_THROW(write_vtu(folder / "m.vtu", box({0, 0, 0}, {1, 1, 1}), {scalar_field("f", {1.0})}, {}),
                std::logic_error);
   EXPECT_FALSE(std::filesystem::exists(folder / "m.vtu"));
 }
 
 TEST(Pvd, ListsFramesWithTimes) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   write_pvd(folder / "run.pvd", {{0.0, "frames/frame_0000.vtu"}, {1.5e-5, "frames/frame_0001.vtu"}});
   const std::string xml = file_content(folder / "run.pvd");
   expect_well_formed(xml);

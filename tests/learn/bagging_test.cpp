@@ -7,8 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "synthetic.hpp"
 
 namespace conchoid {
@@ -137,10 +137,8 @@ TEST(Bagging, TreesHaveTheSameBitsForEveryNumberOfThreads) {
   for (std::size_t i = 0; i < d.size(); i += 100)
     d.target.values[i] *= 1000;  // heavy tail: rounding would show
   const auto fit = [&](int threads) {
-    set_thread_count(threads);
-    const auto trees = fit_bagged_trees(d.rows, d.columns, {d.target}, {6, 12, 1, 1024});
-    set_thread_count(0);
-    return trees[0];
+    return ExecutionContext(threads).run(
+        [&] { return fit_bagged_trees(d.rows, d.columns, {d.target}, {6, 12, 1, 1024})[0]; });
   };
   const auto one = fit(1), two = fit(2), four = fit(4);
   for (std::size_t t = 0; t < one.size(); ++t)

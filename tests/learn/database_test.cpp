@@ -16,7 +16,7 @@
 namespace conchoid {
 namespace {
 
-using test::ScratchFolder;
+using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 DatabaseHeader header(std::int32_t runs) {
@@ -73,7 +73,7 @@ void expect_refused(const fs::path& file, const std::string& about) {
 }
 
 TEST(Database, GivesBackWhatWasPutIn) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a.h5", header(11), false);
   const Database d = read_database(folder / "a.h5");
   EXPECT_EQ(d.header, header(11));
@@ -94,13 +94,13 @@ TEST(Database, GivesBackWhatWasPutIn) {
 }
 
 TEST(Database, IsPlainHdf5BehindItsFirstBlock) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a.h5", header(3), false);
   EXPECT_EQ(read_bytes(folder / "a.h5").substr(512, 8), "\x89HDF\r\n\x1a\n");
 }
 
 TEST(Database, HasTheSameBytesInWhateverOrderTheRunsEnd) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a.h5", header(20), false);
   generate(folder / "b.h5", header(20), false, true);
   {
@@ -120,7 +120,7 @@ TEST(Database, HasTheSameBytesInWhateverOrderTheRunsEnd) {
 }
 
 TEST(Database, CanBeStoppedFinishedAndTakenUpAgain) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   {
     DatabaseWriter writer(folder / "a.h5", header(9), false);
     for (const std::int32_t run : {7, 2, 4})
@@ -140,7 +140,7 @@ TEST(Database, CanBeStoppedFinishedAndTakenUpAgain) {
 }
 
 TEST(Database, SurvivesBeingKilledAtAnyMoment) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const DatabaseHeader h = header(60);
   generate(folder / "whole.h5", h, false);
   std::mt19937_64 random(3);
@@ -180,7 +180,7 @@ TEST(Database, SurvivesBeingKilledAtAnyMoment) {
 }
 
 TEST(Database, DoesNotOverwriteAndDoesNotMixSpecifications) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   { DatabaseWriter(folder / "a.h5", header(5), false).add(record(1), samples_of(1)); }
   EXPECT_THROW(DatabaseWriter(folder / "a.h5", header(5), false), InputError);
   EXPECT_THROW(DatabaseWriter(folder / "a.h5", header(6), true), InputError);
@@ -198,13 +198,13 @@ TEST(Database, DoesNotOverwriteAndDoesNotMixSpecifications) {
 }
 
 TEST(Database, OneWriterAtATime) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const DatabaseWriter first(folder / "a.h5", header(5), false);
   EXPECT_THROW(DatabaseWriter(folder / "a.h5", header(5), true), InputError);
 }
 
 TEST(Database, RefusesRunsThatAreNotPlannedOrKeptAlready) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   DatabaseWriter writer(folder / "a.h5", header(5), false);
   writer.add(record(1), samples_of(1));
   EXPECT_THROW(writer.add(record(1), samples_of(1)), std::logic_error);
@@ -216,7 +216,7 @@ TEST(Database, RefusesRunsThatAreNotPlannedOrKeptAlready) {
 }
 
 TEST(Database, NamesADamagedPart) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   { DatabaseWriter(folder / "a.h5", header(5), false).add(record(1), samples_of(1)); }
   const fs::path part = folder / "a.h5.parts/run-00000001.bin";
   std::string bytes = read_bytes(part);
@@ -234,7 +234,7 @@ TEST(Database, NamesADamagedPart) {
 }
 
 TEST(DatabaseMerge, ShardsMakeTheWhole) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::vector<fs::path> files;
   for (std::int32_t shard = 1; shard <= 3; ++shard) {
     DatabaseHeader h = header(10);
@@ -255,7 +255,7 @@ TEST(DatabaseMerge, ShardsMakeTheWhole) {
 }
 
 TEST(DatabaseMerge, RefusesWhatDoesNotBelongTogether) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a", header(4), false);
   DatabaseHeader other = header(4);
   other.spec = "model = \"bar\"\n";
@@ -273,15 +273,15 @@ TEST(DatabaseMerge, RefusesWhatDoesNotBelongTogether) {
 }
 
 TEST(DatabaseFile, RefusesTruncatedDamagedAndForeignFiles) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "whole", header(2), false);
   const std::string bytes = read_bytes(folder / "whole");
   for (std::size_t n = 0; n < bytes.size(); n += n < 40 ? 1 : 331) {
-    test::write_plainly(folder / "part", std::string_view(bytes).substr(0, n));
+    folder.write("part", std::string_view(bytes).substr(0, n));
     expect_refused(folder / "part", std::to_string(n) + " bytes");
     std::string damaged = bytes;
     damaged[n] = static_cast<char>(damaged[n] ^ 4);
-    test::write_plainly(folder / "damaged", damaged);
+    folder.write("damaged", damaged);
     expect_refused(folder / "damaged", "byte " + std::to_string(n));
   }
   write_bytes(folder / "longer", bytes + "x");
@@ -299,7 +299,7 @@ TEST(DatabaseFile, RefusesTruncatedDamagedAndForeignFiles) {
 }
 
 TEST(DatabaseFile, RefusesHdf5ThatBearsTheRightHashButIsNoDatabase) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "whole", header(2), false);
   std::string bytes = read_bytes(folder / "whole");
   for (std::size_t round = 0; round < 6; ++round) {
@@ -319,13 +319,13 @@ TEST(DatabaseFile, RefusesHdf5ThatBearsTheRightHashButIsNoDatabase) {
     block.put(hash_bytes(image));
     std::string head = block.bytes();
     head.resize(512, '\0');
-    test::write_plainly(folder / "forged", head + image);
+    folder.write("forged", head + image);
     expect_refused(folder / "forged", "without " + victim);
   }
 }
 
 TEST(DatabaseInfo, CountsRunsSamplesAndReasons) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a", header(12), false);
   const Database d = read_database(folder / "a");
   const DatabaseInfo info = database_info(d);
@@ -348,7 +348,7 @@ TEST(DatabaseStatistics, AreThoseOfTable1) {
   EXPECT_DOUBLE_EQ(s.coefficient_of_variation, std::sqrt(50.0 / 3) / 4);
   EXPECT_LT(statistics({-1, -2, -4}).coefficient_of_variation, 0)
       << "it has the sign of the mean, as published";
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   generate(folder / "a", header(6), false);
   const Database d = read_database(folder / "a");
   const DatabaseStatistics stats = database_statistics(d);

@@ -6,6 +6,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/exclusion.hpp"
+#include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/summary.hpp"
 #include "synthetic.hpp"
 
@@ -47,25 +48,25 @@ TEST(Evaluate, SteadyIsPerfectWhereIntensitiesStay) {
   EXPECT_EQ(e.samples, split.held_out.size());
   EXPECT_EQ(e.runs, 5u);
   for (int mode = 0; mode < 3; ++mode) {
-    EXPECT_NEAR(e.baseline_steady.r2[mode], 1, 1e-12);
-    EXPECT_NEAR(e.forest.r2[mode], 1, 1e-9) << "the correction to learn is zero";
+    EXPECT_NEAR(e.baselines[0].accuracy.r2[mode], 1, 1e-12);
+    EXPECT_NEAR(e.model.accuracy.r2[mode], 1, 1e-9) << "the correction to learn is zero";
   }
   const Evaluation paper = evaluate(train(split.training, FeatureSet::paper_4), split.held_out);
-  EXPECT_LT(paper.forest.r2[0], e.forest.r2[0]);
-  EXPECT_GT(paper.forest.rmse[0], paper.baseline_steady.rmse[0]);
+  EXPECT_LT(paper.model.accuracy.r2[0], e.model.accuracy.r2[0]);
+  EXPECT_GT(paper.model.accuracy.rmse[0], paper.baselines[0].accuracy.rmse[0]);
 }
 
 TEST(Evaluate, ALearnedChangeBeatsSteady) {
   const Split split = split_by_run(synthetic_runs(40, 1.3, -0.5), 0.25, 1);
   const RegressionForest forest = train(split.training, FeatureSet::dimensionless);
   const Evaluation e = evaluate(forest, split.held_out);
-  EXPECT_GT(e.forest.r2[0], e.baseline_steady.r2[0]);
-  EXPECT_GT(e.forest.r2[1], e.baseline_steady.r2[1]);
-  EXPECT_LT(e.baseline_steady.r2[1], 0) << "the steady sign of mode II is wrong here";
-  EXPECT_LT(e.forest.rmse[0], 0.2 * e.baseline_steady.rmse[0]);
+  EXPECT_GT(e.model.accuracy.r2[0], e.baselines[0].accuracy.r2[0]);
+  EXPECT_GT(e.model.accuracy.r2[1], e.baselines[0].accuracy.r2[1]);
+  EXPECT_LT(e.baselines[0].accuracy.r2[1], 0) << "the steady sign of mode II is wrong here";
+  EXPECT_LT(e.model.accuracy.rmse[0], 0.2 * e.baselines[0].accuracy.rmse[0]);
   EXPECT_FALSE(e.seen_in_training);
   EXPECT_TRUE(evaluate(forest, split.training).seen_in_training);
-  EXPECT_EQ(evaluate(forest, split.training).in_range, split.training.size());
+  EXPECT_EQ(evaluate(forest, split.training).model.in_range, split.training.size());
   EXPECT_THROW(evaluate(forest, {}), InputError);
 }
 

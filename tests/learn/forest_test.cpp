@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "conchoid/core/bytes.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "synthetic.hpp"
 
 namespace conchoid {
 namespace {
 
-using test::ScratchFolder;
 using test::synthetic_runs;
+using test::TemporaryFolder;
 
 RegressionForest small_forest(FeatureSet set = FeatureSet::paper_4, int trees = 8, int depth = 6) {
   ForestSettings settings;
@@ -76,6 +76,7 @@ TEST(Forest, HoldsForAnotherSizeAndMaterialIfDimensionless) {
     s.toughness *= 1000 * 8;
     s.youngs_modulus *= 1000;
     s.traction *= 1000;
+    s.front_curvature /= 64;
     for (double* length :
          {&s.resolution, &s.distance_before, &s.distance_after, &s.travelled, &s.surface_distance})
       *length *= 64;
@@ -141,7 +142,7 @@ TEST(Forest, TrainingIsReportedTreeByTreeAndCanBeStopped) {
 }
 
 TEST(ForestFile, BringsTheForestBack) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const RegressionForest forest = small_forest(FeatureSet::dimensionless_context);
   forest.save(folder / "a.forest");
   const RegressionForest again = RegressionForest::load(folder / "a.forest");
@@ -159,12 +160,9 @@ TEST(ForestFile, BringsTheForestBack) {
 }
 
 TEST(ForestFile, HasTheSameBytesForEveryNumberOfThreads) {
-  const ScratchFolder folder;
-  for (const int threads : {1, 2}) {
-    set_thread_count(threads);
-    small_forest().save(folder / std::to_string(threads));
-  }
-  set_thread_count(0);
+  const TemporaryFolder folder;
+  for (const int threads : {1, 2})
+    ExecutionContext(threads).run([&] { small_forest().save(folder / std::to_string(threads)); });
   EXPECT_EQ(read_bytes(folder / "1"), read_bytes(folder / "2"));
 }
 
@@ -181,23 +179,23 @@ void expect_refused(const std::filesystem::path& file, const std::string& about)
 }
 
 TEST(ForestFile, RefusesEveryTruncation) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   const std::string bytes = read_bytes(folder / "whole");
   for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 37) {
-    test::write_plainly(folder / "part", std::string_view(bytes).substr(0, n));
+    folder.write("part", std::string_view(bytes).substr(0, n));
     expect_refused(folder / "part", std::to_string(n) + " bytes of " + std::to_string(bytes.size()));
   }
 }
 
 TEST(ForestFile, RefusesEveryDamagedByte) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   const std::string bytes = read_bytes(folder / "whole");
   for (std::size_t n = 0; n < bytes.size(); n += n < 64 ? 1 : 29) {
     std::string damaged = bytes;
     damaged[n] = static_cast<char>(damaged[n] ^ 0x10);
-    test::write_plainly(folder / "damaged", damaged);
+    folder.write("damaged", damaged);
     expect_refused(folder / "damaged", "byte " + std::to_string(n));
   }
   write_bytes(folder / "longer", bytes + "x");
@@ -207,7 +205,7 @@ TEST(ForestFile, RefusesEveryDamagedByte) {
 }
 
 TEST(ForestFile, RefusesNewerVersionsMissingFilesAndFolders) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   small_forest(FeatureSet::paper_3, 2, 3).save(folder / "whole");
   std::string bytes = read_bytes(folder / "whole");
   bytes[8] = 9;

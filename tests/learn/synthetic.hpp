@@ -1,15 +1,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <string>
-#include <string_view>
 
 #include "conchoid/learn/features.hpp"
 #include "conchoid/learn/sample.hpp"
+#include "temporary_folder.hpp"
 
 namespace conchoid::test {
 
@@ -41,6 +37,7 @@ inline SampleSet synthetic_run(int run, int frames, int nodes, double growth, do
       s.surface_distance = 0.5 * scale;
       s.K = s.toughness * load *
             Vec3(0.5 + uniform(random), 0.6 * (uniform(random) - 0.5), 0.6 * (uniform(random) - 0.5));
+      s.front_curvature = 2 / scale;
       s.traction = {2e6, 1e5, -1e5};
       Sample next = s;
       next.K = s.K.cwiseProduct(Vec3(growth, kink, 1));
@@ -56,28 +53,5 @@ inline SampleSet synthetic_runs(int runs, double growth, double kink) {
     set.append(synthetic_run(run, 8, 10, growth, kink));
   return set;
 }
-
-/// Without the care of AtomicFile: for files that are wrong on purpose.
-inline void write_plainly(const std::filesystem::path& file, std::string_view bytes) {
-  std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-/// A folder of its own for one test, removed afterwards.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "conchoid-learn-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace conchoid::test

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 #include <openvdb/openvdb.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/material/voxels.hpp"
+#include "temporary_folder.hpp"
 
 // Files written by OpenVDB itself.
 namespace conchoid {
@@ -16,11 +16,7 @@ namespace fs = std::filesystem;
 
 class Vdb : public testing::Test {
  protected:
-  Vdb() {
-    openvdb::initialize();
-    fs::create_directories(folder_);
-  }
-  ~Vdb() override { fs::remove_all(folder_); }
+  Vdb() { openvdb::initialize(); }
 
   /// 4 × 3 × 2 voxels of edge 0.5 from index (10, −1, 3): 1 + i + 10 j + 100 k, counted from the first.
   static openvdb::FloatGrid::Ptr grid(const std::string& name) {
@@ -51,7 +47,7 @@ class Vdb : public testing::Test {
     }
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("conchoid-vdb-" + std::to_string(::getpid()));
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Vdb, TheBoxOfActiveVoxelsIsReadWhereItLies) {

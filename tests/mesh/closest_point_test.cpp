@@ -5,25 +5,9 @@
 #include <limits>
 #include <random>
 
+#include "mesh/mesh_checks.hpp"
+
 using namespace conchoid;
-
-namespace {
-
-TriMesh random_soup(std::size_t triangles, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  TriMesh m;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const Vec3 center(uniform(random), uniform(random), uniform(random));
-    std::array<NodeId, 3> corners;
-    for (NodeId& c : corners)
-      c = m.positions.add(center + 0.2 * Vec3(uniform(random), uniform(random), uniform(random)));
-    m.corners.add(corners);
-  }
-  return m;
-}
-
-}  // namespace
 
 TEST(ClosestPoint, FaceEdgeAndCornerOfATriangle) {
   const Triangle t{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "conchoid/mesh/tri_mesh.hpp"
@@ -24,6 +25,21 @@ inline TriangleSoup triangle_soup(const TriMesh& mesh) {
     soup.insert(corners);
   }
   return soup;
+}
+
+/// Triangles of the size 0.2 anywhere in the cube from −1 to 1, through each other.
+inline TriMesh random_soup(std::size_t triangles, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  TriMesh m;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const Vec3 center(uniform(random), uniform(random), uniform(random));
+    std::array<NodeId, 3> corners;
+    for (NodeId& c : corners)
+      c = m.positions.add(center + 0.2 * Vec3(uniform(random), uniform(random), uniform(random)));
+    m.corners.add(corners);
+  }
+  return m;
 }
 
 /// Reverses the orientation of all triangles.

@@ -2,13 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "conchoid/core/error.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "scans.hpp"
 
 namespace conchoid {
 namespace {
@@ -61,21 +60,23 @@ TEST(Remesh, NotchedBarKeepsItsNotch) {
   EXPECT_GT(report.smallest_angle, 15);
 }
 
-TEST(Remesh, ArmadilloFitsInAThousandTriangles) {
-  const std::filesystem::path path = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const TriMesh armadillo = read_mesh(path);
-  EXPECT_EQ(armadillo.triangle_count(), 99976u);
+using RemeshScan = test::ScanTest;
+
+TEST_P(RemeshScan, KeepsItsShapeInFewTriangles) {
+  const TriMesh armadillo = read_mesh(GetParam().file);
+  EXPECT_EQ(armadillo.triangle_count(), GetParam().triangles);
   EXPECT_NO_THROW(require_valid_body(armadillo, "armadillo.ply"));
   RemeshReport report;
-  const TriMesh mesh = remesh(armadillo, 1000, &report);
-  expect_good(mesh, report, 1000);
+  const TriMesh mesh = remesh(armadillo, GetParam().elements, &report);
+  expect_good(mesh, report, GetParam().elements);
   RecordProperty("smallest_angle", std::to_string(report.smallest_angle));
   RecordProperty("hausdorff", std::to_string(report.hausdorff_distance));
   EXPECT_LE(report.below_15_degrees, 10);
   EXPECT_LT(report.hausdorff_distance, 0.05 * bounding_box(armadillo).diagonal());
   EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(armadillo), 0.05 * enclosed_volume(armadillo));
 }
+
+INSTANTIATE_TEST_SUITE_P(Scans, RemeshScan, testing::ValuesIn(test::scans()), test::scan_name);
 
 TEST(Remesh, ScalingByAPowerOfTwoKeepsTheBits) {
   TriMesh ball = icosphere(1, 4);

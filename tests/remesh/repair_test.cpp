@@ -4,18 +4,18 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <numbers>
 #include <vector>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 #include "conchoid/remesh/examine.hpp"
 #include "conchoid/remesh/voxel_surface.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "scans.hpp"
 
 namespace conchoid {
 namespace {
@@ -252,9 +252,7 @@ TEST(Repair, AnyPatternOfPointsHasACleanBoundary) {
 }
 
 TEST(Repair, TheSameBitsForEveryThreadCount) {
-  set_thread_count(1);
-  const TriMesh one = repaired(overlapping_spheres(), 0.1).mesh;
-  set_thread_count(0);
+  const TriMesh one = ExecutionContext(1).run([] { return repaired(overlapping_spheres(), 0.1).mesh; });
   const TriMesh all = repaired(overlapping_spheres(), 0.1).mesh;
   EXPECT_EQ(one.positions, all.positions);
   EXPECT_EQ(one.corners, all.corners);
@@ -280,14 +278,15 @@ TEST(Repair, WhatCannotBeRepairedIsRefused) {
   EXPECT_THROW(repaired(sheet), ComputationError) << "a sheet bounds no volume";
 }
 
-TEST(Repair, TheArmadilloWithHolesIsMended) {
-  const std::filesystem::path path = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  TriMesh mesh = read_mesh(path);
+using RepairScan = test::ScanTest;
+
+TEST_P(RepairScan, WithHolesIsMended) {
+  TriMesh mesh = read_mesh(GetParam().file);
   const SurfaceReport good = examine(mesh);
   EXPECT_TRUE(good.usable());
   std::size_t t = 0;
-  std::erase_if(mesh.corners, [&](const auto&) { return t++ % 5000 < 3; });
+  const std::size_t between = mesh.triangle_count() / 20;
+  std::erase_if(mesh.corners, [&](const auto&) { return t++ % between < 3; });
   EXPECT_GT(examine(mesh).holes.size(), 10u);
   const double h = (good.box.high - good.box.low).maxCoeff() / 100;
   const Repair repair = repaired(mesh, h);
@@ -296,5 +295,7 @@ TEST(Repair, TheArmadilloWithHolesIsMended) {
   EXPECT_NEAR(repair.volume_after, good.volume, 0.02 * good.volume);
   EXPECT_LT(repair.moved, 1.5 * h);
 }
+
+INSTANTIATE_TEST_SUITE_P(Scans, RepairScan, testing::ValuesIn(test::scans()), test::scan_name);
 
 }  // namespace conchoid

@@ -226,7 +226,10 @@ TEST(SelfIntersections, AgreeWithTheTestOfAllPairs) {
     }
     for (int t = 0; t < 50; ++t)  // some that share nodes
       mesh.corners.push_back({NodeId(t), NodeId(t + 40), NodeId(t + 90)});
-    EXPECT_EQ(self_intersections(mesh, 1000000), all_pairs(mesh)) << trial;
+    auto pairs = all_pairs(mesh);
+    EXPECT_EQ(self_intersections(mesh, 1000000), pairs) << trial;
+    pairs.resize(std::min<std::size_t>(pairs.size(), 7));
+    EXPECT_EQ(self_intersections(mesh, 7), pairs) << "the first ones, whichever way they were found";
   }
 }
 

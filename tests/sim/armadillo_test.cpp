@@ -8,13 +8,14 @@
 
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/run.hpp"
+#include "scans.hpp"
 #include "scenes.hpp"
 
 namespace conchoid {
 namespace {
 
 // examples/armadillo.toml with the scan where it lies, coarser where only the picture needs it fine.
-std::string example_text(const std::filesystem::path& scan) {
+std::string example_text(const test::Scan& scan) {
   std::ifstream in(std::filesystem::path(CONCHOID_SOURCE_DIR) / "examples/armadillo.toml");
   std::stringstream text;
   text << in.rdbuf();
@@ -24,22 +25,23 @@ std::string example_text(const std::filesystem::path& scan) {
     if (at == std::string::npos) throw std::runtime_error("the example has changed: " + from);
     s.replace(at, from.size(), to);
   };
-  replace("mesh = \"armadillo.ply\"", "mesh = \"" + scan.string() + "\"");
+  replace("mesh = \"armadillo.ply\"", "mesh = \"" + scan.file.string() + "\"");
+  replace("remesh = 1000", "remesh = " + std::to_string(scan.elements));
   replace("surface = 0.4", "surface = 1.0");
   return s;
 }
 
-TEST(Armadillo, BreaksIntoPiecesThatKeepTheScan) {
-  const auto scan = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
-  if (!std::filesystem::exists(scan)) GTEST_SKIP() << scan << " is not there";
+using Armadillo = test::ScanTest;
+
+TEST_P(Armadillo, BreaksIntoPiecesThatKeepTheScan) {
+  const test::Scan& scan = GetParam();
   RunOptions options;
   options.progress = false;
   const RunResult result = run_scene(test::scene_from_text(example_text(scan)), options);
-  EXPECT_TRUE(result.document.stop == "separated" || result.document.stop == "arrested")
-      << result.document.stop;
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_GE(result.cracks, 1);
   EXPECT_GE(result.fragments.size(), 2u);
-  const TriMesh original = read_mesh(scan);
+  const TriMesh original = read_mesh(scan.file);
   double volume = 0;
   std::set<std::array<double, 3>> kept;
   for (const Fragment& f : result.fragments) {
@@ -62,6 +64,8 @@ TEST(Armadillo, BreaksIntoPiecesThatKeepTheScan) {
   EXPECT_GT(far, original.node_count() * 9 / 10);
   RecordProperty("pieces", static_cast<int>(result.fragments.size()));
 }
+
+INSTANTIATE_TEST_SUITE_P(Scans, Armadillo, testing::ValuesIn(test::scans()), test::scan_name);
 
 }  // namespace
 }  // namespace conchoid

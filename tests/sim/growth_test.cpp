@@ -42,7 +42,7 @@ class PulledCubeAt : public testing::TestWithParam<double> {};
 
 TEST_P(PulledCubeAt, OneCrackSeparatesItIntoTwoPieces) {
   const RunResult result = run(cube_text(GetParam(), 1e8));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.cracks, 1);
   ASSERT_EQ(result.fragments.size(), 2u);
   double volume = 0;
@@ -75,7 +75,7 @@ TEST(PulledCube, UniaxialStressAtFortyFiveDegreesStartsACrackAcrossIt) {
       run("[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
           test::boundary_text("z+", "traction", t) + test::boundary_text("z-", "traction", -t) +
           test::boundary_text("x+", "traction", t) + test::boundary_text("x-", "traction", -t));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.cracks, 1);
   ASSERT_EQ(result.fragments.size(), 2u);
   EXPECT_NEAR(result.fragments[0].volume + result.fragments[1].volume, 1, 1e-9);
@@ -87,7 +87,7 @@ TEST(PulledCube, UniaxialStressAtFortyFiveDegreesStartsACrackAcrossIt) {
 
 TEST(WeakLoad, LeavesTheCubeIntact) {
   const RunResult result = run(cube_text(0, 5e7));
-  EXPECT_EQ(result.document.stop, "intact");
+  EXPECT_EQ(result.document.stop, StopReason::intact);
   EXPECT_EQ(result.cracks, 0);
   EXPECT_EQ(result.document.frames, 0);
   ASSERT_EQ(result.fragments.size(), 1u);
@@ -108,7 +108,7 @@ Mat3 tension(double s) {
 TEST(Disc, BelowTheToughnessStaysAsItIs) {
   // K_I = 2σ√(a/π) = 0.8 K_c
   const RunResult result = run(disc_text(tension(1e6), 10));
-  EXPECT_EQ(result.document.stop, "arrested");
+  EXPECT_EQ(result.document.stop, StopReason::arrested);
   EXPECT_EQ(result.document.frames, 1);
   EXPECT_EQ(result.largest_growth, 0);
   for (const FrontRow& row : result.front)
@@ -117,7 +117,7 @@ TEST(Disc, BelowTheToughnessStaysAsItIs) {
 
 TEST(Disc, UnderTensionStaysAFlatDisc) {
   const RunResult result = run(disc_text(tension(2e6), 6));
-  EXPECT_EQ(result.document.stop, "frame-limit");
+  EXPECT_EQ(result.document.stop, StopReason::frame_limit);
   double height = 0;
   for (const Vec3& x : result.crack.positions)
     height = std::max(height, std::abs(x.z()));
@@ -171,7 +171,7 @@ class EdgeCrackCube : public testing::TestWithParam<double> {};
 
 TEST_P(EdgeCrackCube, OpeningModeGrowsStraightAheadThroughTheCube) {
   const RunResult result = run(edge_cube_text({0, 0, 2e6}, GetParam()));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   EXPECT_LT(largest_height(result.crack), 0.05);
   EXPECT_NEAR(result.fragments[0].volume, 0.5, 0.01);
@@ -217,7 +217,7 @@ TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
   }
   EXPECT_EQ(middle, 1);
   EXPECT_EQ(ends, 2);
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   EXPECT_NEAR(result.fragments[0].volume, 0.5, 0.02);
   EXPECT_GT(largest_height(result.crack), 0.4);

@@ -35,7 +35,7 @@ TriMesh mapped(TriMesh mesh, const Map& map) {
 // The cube as a mesh file, pulled at an angle, and everything that has a length or a stress mapped.
 RunResult run(const Map& map, const Vec3& pull) {
   const test::TemporaryFolder folder;
-  const std::string file = folder.write("body.obj", mapped(built_in_model("cube").mesh, map));
+  const std::string file = test::write_mesh_in(folder, "body.obj", mapped(built_in_model("cube").mesh, map));
   const Vec3 up = map.turn * Vec3::UnitZ(), traction = map.stiffness * (map.turn * pull);
   const double near = 0.49 * map.scale, k = map.stiffness;
   const std::string text =
@@ -67,7 +67,7 @@ class Invariance : public testing::TestWithParam<Case> {
 
   void expect_same(const Map& map) {
     const RunResult here = run({}, GetParam().pull), there = run(map, GetParam().pull);
-    EXPECT_EQ(here.document.stop, "separated");
+    EXPECT_EQ(here.document.stop, StopReason::separated);
     EXPECT_EQ(here.document.stop, there.document.stop);
     EXPECT_EQ(here.document.frames, there.document.frames);
     EXPECT_EQ(here.cracks, there.cracks);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/study/surface_distance.hpp"
@@ -60,7 +60,7 @@ double roughness(const TriMesh& mesh) {
 
 TEST(Material, AHomogeneousCrackIsSmooth) {
   const RunResult result = run(cube_text(""));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   const double height = roughness(result.crack);
   EXPECT_LT(height, 0.1 * kCrackEdge);
   RecordProperty("height", test::text(height));
@@ -74,7 +74,7 @@ TEST(Material, RoughnessGrowsWithTheAmplitude) {
   double before = roughness(run(cube_text("")).crack);
   for (double amplitude : {0.1, 0.2, 0.4}) {
     const RunResult result = run(cube_text(noise_text(0.2, amplitude)));
-    EXPECT_EQ(result.document.stop, "separated");
+    EXPECT_EQ(result.document.stop, StopReason::separated);
     EXPECT_EQ(result.fragments.size(), 2u);
     const double height = roughness(result.crack);
     EXPECT_GT(height, 1.3 * before) << amplitude;
@@ -128,7 +128,7 @@ TEST(Material, TheSpectrumFollowsTheWavelengthOfTheField) {
   double before = 0;
   for (double wavelength : {0.08, 0.16, 0.32}) {
     const RunResult result = run(cube_text(noise_text(wavelength, 0.2)));
-    EXPECT_EQ(result.document.stop, "separated");
+    EXPECT_EQ(result.document.stop, StopReason::separated);
     const double found = middle_wavelength(result.crack);
     EXPECT_GT(found, 1.2 * before) << wavelength;
     EXPECT_GT(found, 0.6 * wavelength);
@@ -142,7 +142,7 @@ TEST(Material, TheSpectrumFollowsTheWavelengthOfTheField) {
 TEST(Material, TheCrackRunsAlongWeakLayers) {
   const Vec3 across = Vec3(std::sin(0.26), 0, std::cos(0.26));
   const RunResult result = run(cube_text(layers_text(across, 0.2, 0.4)));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   const Layers layers{across, 0.2, 0.4, 0};
   const auto mean_toughness = [&](const TriMesh& crack) {
@@ -164,7 +164,7 @@ TEST(Material, TheCrackRunsAlongWeakLayers) {
 TEST(Material, TheCrackPrefersGrainBoundaries) {
   const std::string text = "[material.toughness_field]\nkind = 'grains'\nsize = 0.25\nweakening = 0.6\n";
   const RunResult result = run(cube_text(text));
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.fragments.size(), 2u);
   const Grains grains{.size = 0.25, .width = 0.05, .weakening = 0.6};
   double area = 0, sum = 0;
@@ -203,11 +203,8 @@ TEST(Material, ACrackStartsWhereTheBodyIsWeak) {
 
 TEST(Material, TheSameBitsForOneThreadAndForTwo) {
   const std::string text = cube_text(noise_text(0.2, 0.3, 3));
-  set_thread_count(1);
-  const RunResult one = run(text);
-  set_thread_count(2);
-  const RunResult two = run(text);
-  set_thread_count(0);
+  const RunResult one = ExecutionContext(1).run([&] { return run(text); });
+  const RunResult two = ExecutionContext(2).run([&] { return run(text); });
   EXPECT_EQ(one.document.hash, two.document.hash);
 }
 
@@ -217,7 +214,7 @@ RunResult run_mapped(const Mat3& turn, double scale) {
   for (Vec3& x : body.positions)
     x = scale * (turn * x);
   const test::TemporaryFolder folder;
-  const std::string file = folder.write("body.obj", body);
+  const std::string file = test::write_mesh_in(folder, "body.obj", body);
   const Vec3 up = turn * Vec3::UnitZ();
   const std::string axes = fmt::format("axes = [{}, {}, {}]\n", test::text(Vec3(turn.col(0))),
                                        test::text(Vec3(turn.col(1))), test::text(Vec3(turn.col(2))));
@@ -242,7 +239,7 @@ RunResult run_mapped(const Mat3& turn, double scale) {
 }
 
 void expect_same_fracture(const RunResult& a, const RunResult& b) {
-  EXPECT_EQ(a.document.stop, "separated");
+  EXPECT_EQ(a.document.stop, StopReason::separated);
   EXPECT_EQ(a.document.stop, b.document.stop);
   EXPECT_EQ(a.document.frames, b.document.frames);
   EXPECT_EQ(a.fragments.size(), b.fragments.size());
@@ -282,7 +279,7 @@ TEST(Material, RefiningTheSurfaceRefinesTheSurfaceOnly) {
   for (const std::string& field : {std::string(), grains, noise_text(0.2, 0.2, 3), noise_text(0.2, 0.3),
                                    layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
     const RunResult coarse = run(cube_text(field, 0.02)), fine = run(cube_text(field, 0.01));
-    EXPECT_EQ(coarse.document.stop, "separated");
+    EXPECT_EQ(coarse.document.stop, StopReason::separated);
     EXPECT_EQ(front_text(coarse), front_text(fine));
     EXPECT_EQ(coarse.fragments.size(), fine.fragments.size());
     EXPECT_LT(symmetric_distance(coarse.crack, fine.crack, 5000).mean, 0.3 * 0.02);

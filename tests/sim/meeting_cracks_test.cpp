@@ -46,7 +46,7 @@ class MeetingCracks : public ::testing::TestWithParam<Second> {};
 
 TEST_P(MeetingCracks, CutTheCubeTogether) {
   const RunResult result = pulled_cube(GetParam());
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_LE(result.document.frames, 10);
   ASSERT_EQ(result.fragments.size(), 2u);
   for (const Fragment& f : result.fragments) {

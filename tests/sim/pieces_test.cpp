@@ -46,7 +46,7 @@ TEST(Pieces, KeepTheBitsMaterialsAndTextureOfTheBody) {
   options.folder = folder.path() / "run";
   options.formats = {"glb", "stl", "vdb", "hulls"};
   const RunResult result = run_scene(scene, options);
-  EXPECT_EQ(result.document.stop, "separated");
+  EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   ASSERT_EQ(result.document.contacts.size(), 1u);
   EXPECT_NEAR(result.document.contacts[0].area, 0.09, 1e-12);  // the cube's cross section

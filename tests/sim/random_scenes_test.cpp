@@ -29,7 +29,7 @@ Body draw_body(Random& random, const test::TemporaryFolder& folder) {
     case 3:
       return {"[body]\nmodel = 'cube'\nscale = 0.01\n", "x+", "x-", 0.01, 7.6e7};
     default:
-      return {test::mesh_body_text(folder.write("ball.obj", shapes::icosphere(2))) +
+      return {test::mesh_body_text(test::write_mesh_in(folder, "ball.obj", shapes::icosphere(2))) +
                   test::region_text("top", test::half_space_text(Vec3::UnitZ(), 0.6)) +
                   test::region_text("bottom", test::half_space_text(-Vec3::UnitZ(), 0.6)),
               "top", "bottom", 1.6, 1.2e8};

@@ -51,7 +51,7 @@ double apart(const RunResult& a, const RunResult& b) {
 }
 
 void expect_same_outcome(const RunResult& a, const RunResult& b) {
-  EXPECT_EQ(a.document.stop, "separated");
+  EXPECT_EQ(a.document.stop, StopReason::separated);
   EXPECT_EQ(a.document.stop, b.document.stop);
   EXPECT_EQ(a.document.frames, b.document.frames);
   EXPECT_EQ(a.fragments.size(), b.fragments.size());

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/study/solid_overlap.hpp"
 #include "conchoid/study/surface_distance.hpp"
 #include "io/samples.hpp"
@@ -177,11 +177,11 @@ TEST(Compare, AMissingCrackIsADiagonalAway) {
 
 TEST(Compare, SameNumbersForEveryThreadCountAndForTwiceTheSize) {
   const RunData a = run_of(0.05, 5, 1e6), b = run_of(0.1, 6, 2e6);
-  set_thread_count(1);
-  const std::string one = comparison_json(compare(a, b));
-  set_thread_count(2);
-  EXPECT_EQ(comparison_json(compare(a, b)), one);
-  set_thread_count(0);
+  const auto compared = [&](int threads) {
+    return ExecutionContext(threads).run([&] { return comparison_json(compare(a, b)); });
+  };
+  const std::string one = compared(1);
+  EXPECT_EQ(compared(2), one);
   const auto doubled = [](RunData run) {
     for (Vec3& x : run.crack.positions)
       x *= 2;
@@ -199,7 +199,7 @@ TEST(Compare, SameNumbersForEveryThreadCountAndForTwiceTheSize) {
 }
 
 TEST(Compare, RunFoldersAndJson) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   for (const auto& [name, run] : {std::pair("a", run_of(0, 5, 1e6)), std::pair("b", run_of(0.1, 6, 1e6))}) {
     RunFolder folder(scratch / name);
     folder.write_front_csv(run.front);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -14,6 +13,7 @@
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
 #include "intersect/cut_shapes.hpp"
+#include "scans.hpp"
 
 namespace conchoid {
 namespace {
@@ -333,10 +333,10 @@ TEST(Fragments, DomeOverACrackInside) {
   EXPECT_NEAR(f[1].volume, std::numbers::pi * 0.1 * 0.1 / 4, 1e-3);  // paraboloid: π h²/(2·2)
 }
 
-TEST(Fragments, ArmadilloCutByAPlane) {
-  const std::filesystem::path path = std::filesystem::path(CONCHOID_SHARED_MODELS) / "armadillo.ply";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const TriMesh body = read_mesh(path);
+using FragmentsScan = test::ScanTest;
+
+TEST_P(FragmentsScan, IsCutByAWavyPlane) {
+  const TriMesh body = read_mesh(GetParam().file);
   const Box box = bounding_box(body);
   std::mt19937 random(10);
   for (int k = 0; k < 3; ++k) {
@@ -352,6 +352,8 @@ TEST(Fragments, ArmadilloCutByAPlane) {
     EXPECT_NEAR(check(f, body).volume / enclosed_volume(body), 1.0, 1e-12);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Scans, FragmentsScan, testing::ValuesIn(test::scans()), test::scan_name);
 
 TEST(Separation, CountsPiecesOfTheCoarseComplex) {
   const TriMesh body = cube(4);

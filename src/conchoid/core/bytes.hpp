@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "conchoid/core/byte_order.hpp"
+
 namespace conchoid {
 
 /// xxHash (XXH64) of bytes.
@@ -34,9 +36,7 @@ class ByteWriter {
  public:
   template <class T>
   void put(T value) {
-    const auto bits = to_bits(value);
-    for (std::size_t i = 0; i < sizeof bits; ++i)
-      bytes_.push_back(static_cast<char>((bits >> (8 * i)) & 0xff));
+    append_bytes(bytes_, to_bits(value));
   }
   template <class T>
   void put_all(std::span<const T> values) {
@@ -81,10 +81,7 @@ class ByteReader {
   template <class T>
   T get() {
     using Bits = decltype(ByteWriter::to_bits(T{}));
-    const std::string_view raw = get_raw(sizeof(Bits));
-    Bits bits = 0;
-    for (std::size_t i = 0; i < sizeof(Bits); ++i)
-      bits |= static_cast<Bits>(static_cast<Bits>(static_cast<unsigned char>(raw[i])) << (8 * i));
+    const auto bits = from_bytes<Bits>(get_raw(sizeof(Bits)));
     if constexpr (std::floating_point<T>)
       return std::bit_cast<T>(bits);
     else

@@ -18,6 +18,14 @@ class ComputationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The boundary elements of a body and its cracks give no system that can be solved: mostly a piece has come
+/// off or hangs by a ligament too thin to resolve, or a crack runs along the surface mesh. Where earlier
+/// frames are worth having, a run ends here and keeps them.
+class SingularSystem : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
+
 /// The user asked to stop (Ctrl-C). What is finished has been kept.
 class Interrupted : public std::runtime_error {
  public:

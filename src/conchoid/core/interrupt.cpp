@@ -1,30 +1,13 @@
 #include "conchoid/core/interrupt.hpp"
 
-#include <atomic>
-#include <csignal>
-
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
 
 namespace conchoid {
-namespace {
-
-std::atomic<bool> signalled = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
-
-void remember(int signal) {
-  signalled = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
-void catch_interrupts() {
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
-}
 
 bool interrupted() {
-  return signalled;
+  const ExecutionContext* context = ExecutionContext::current();
+  return context != nullptr && context->stop_requested();
 }
 
 void throw_if_interrupted() {

@@ -1,29 +1,23 @@
 #include "conchoid/core/log.hpp"
 
-#include <atomic>
-#include <string>
-
-#include "conchoid/core/terminal_line.hpp"
+#include "conchoid/core/context.hpp"
 
 namespace conchoid {
 namespace {
-std::atomic<bool> is_quiet = false;
+
+MessageSink* current_sink() {
+  const ExecutionContext* context = ExecutionContext::current();
+  return context ? context->sink() : nullptr;
 }
 
-void set_quiet(bool quiet) {
-  is_quiet = quiet;
-}
-
-bool quiet() {
-  return is_quiet;
-}
+}  // namespace
 
 void message(std::string_view text) {
-  if (!quiet()) terminal::print(text);
+  if (MessageSink* sink = current_sink()) sink->message(text);
 }
 
 void warning(std::string_view text) {
-  terminal::print("warning: " + std::string(text));
+  if (MessageSink* sink = current_sink()) sink->warning(text);
 }
 
 }  // namespace conchoid

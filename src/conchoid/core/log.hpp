@@ -4,13 +4,10 @@
 
 namespace conchoid {
 
-/// Turns messages and progress off (warnings stay). Set once by the program; never changes a result.
-void set_quiet(bool quiet);
-bool quiet();
-
-/// One line on stderr. The library never writes to stdout.
+/// One line to the sink of the current context (core/context.hpp); nowhere outside of any.
 void message(std::string_view text);
-/// "warning: …" on stderr: the result may not be what the user expects, and what to do about it.
+/// The result may not be what the user expects, and what to do about it. What a run warns of is in its report,
+/// too.
 void warning(std::string_view text);
 
 }  // namespace conchoid

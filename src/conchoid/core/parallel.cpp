@@ -1,25 +1,26 @@
 #include "conchoid/core/parallel.hpp"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <memory>
 #include <thread>
 #include <vector>
 
+#include "conchoid/core/context.hpp"
+
 namespace conchoid {
 namespace {
-std::unique_ptr<tbb::global_control> control;
-int threads_wanted = 0;
 
 #ifdef __SANITIZE_THREAD__
 /// TBB synchronises where the thread sanitizer cannot look: under it, threads of our own run the chunks.
 void run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+  const ExecutionContext* context = ExecutionContext::current();
+  const unsigned threads =
+      context ? static_cast<unsigned>(context->threads()) : std::thread::hardware_concurrency();
   std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(thread_count()));
+  std::vector<std::exception_ptr> failures(std::max(1u, threads));
   const auto work = [&](std::size_t worker) {
     try {
       for (std::size_t c; (c = next++) < chunks;)
@@ -42,20 +43,8 @@ void run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chun
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t c) { chunk(c); });
 }
 #endif
+
 }  // namespace
-
-void set_thread_count(int threads) {
-  threads_wanted = threads;
-  control.reset();
-  if (threads > 0)
-    control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(threads));
-}
-
-int thread_count() {
-  return threads_wanted > 0 ? threads_wanted
-                            : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
 
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -63,7 +52,11 @@ void parallel_for(std::size_t n, std::size_t grain,
   grain = std::max<std::size_t>(1, grain);
   const std::size_t chunks = (n + grain - 1) / grain;
   if (chunks == 1) return body(0, n);
-  run_chunks(chunks, [&](std::size_t c) { body(c * grain, std::min(n, (c + 1) * grain)); });
+  const ExecutionContext* context = ExecutionContext::current();
+  run_chunks(chunks, [&](std::size_t c) {
+    const CurrentContext inherited(context);
+    body(c * grain, std::min(n, (c + 1) * grain));
+  });
 }
 
 }  // namespace conchoid

@@ -5,10 +5,12 @@
 #include <mutex>
 #include <string>
 
+#include "conchoid/core/message_sink.hpp"
+
 namespace conchoid {
 
-/// How far a long loop is, as one line on stderr: "cube runs  120/300  40 %  about 2 min left". Shown on a
-/// terminal only and not with --quiet; gone when the object is. advance() may be called from any thread.
+/// A long loop that tells the sink of the current context how far it is, until destroyed. advance() may be
+/// called from any thread.
 class Progress {
  public:
   Progress(std::string label, std::size_t total);
@@ -21,14 +23,13 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  ProgressReport report() const;
+
   std::string label_;
   std::size_t total_, done_ = 0;
-  Clock::time_point start_ = Clock::now(), shown_{};
-  bool visible_;
+  Clock::time_point start_ = Clock::now();
+  MessageSink* sink_;
   std::mutex mutex_;
 };
-
-/// The line that Progress shows. @param seconds  since the loop started; the time left is estimated from it
-std::string progress_line(const std::string& label, std::size_t done, std::size_t total, double seconds);
 
 }  // namespace conchoid

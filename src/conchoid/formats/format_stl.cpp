@@ -1,36 +1,20 @@
 #include <cmath>
 #include <cstdint>
-#include <map>
 
-#include "conchoid/formats/format_bytes.hpp"
+#include "conchoid/core/byte_order.hpp"
 #include "conchoid/formats/format_readers.hpp"
 #include "conchoid/formats/mesh_text.hpp"
+#include "conchoid/mesh/place.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr std::size_t header_size = 80, record_size = 50;
 
-/// STL repeats every vertex in each of its triangles: equal coordinates become one node.
-class VertexMerger {
- public:
-  explicit VertexMerger(TriMesh& mesh) : mesh_(mesh) {}
-  NodeId operator()(const Vec3& x) {
-    const auto [found, inserted] =
-        ids_.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, NodeId());  // −0 is 0
-    if (inserted) found->second = mesh_.positions.add(x);
-    return found->second;
-  }
-
- private:
-  TriMesh& mesh_;
-  std::map<std::array<double, 3>, NodeId> ids_;
-};
-
 TriMesh read_binary(std::string_view bytes, const std::string& file) {
-  const auto count = from_bytes<std::uint32_t>(bytes.substr(header_size), std::endian::little);
+  const auto count = from_bytes<std::uint32_t>(bytes.substr(header_size));
   TriMesh mesh;
-  VertexMerger merge(mesh);
+  NodeWelder merge(mesh);  // STL repeats every vertex in each of its triangles
   mesh.corners.reserve(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     std::string_view record = bytes.substr(header_size + 4 + t * record_size + 12);
@@ -38,7 +22,7 @@ TriMesh read_binary(std::string_view bytes, const std::string& file) {
     for (NodeId& corner : corners) {
       Vec3 x;
       for (int k = 0; k < 3; ++k)
-        x[k] = from_bytes<float>(record.substr(4 * static_cast<std::size_t>(k)), std::endian::little);
+        x[k] = from_bytes<float>(record.substr(4 * static_cast<std::size_t>(k)));
       if (!x.allFinite())
         fail_in_file(file,
                      "triangle " + std::to_string(t) + " has a coordinate that is not finite; repair it");
@@ -52,7 +36,7 @@ TriMesh read_binary(std::string_view bytes, const std::string& file) {
 
 TriMesh read_ascii(std::string_view bytes, const std::string& file) {
   TriMesh mesh;
-  VertexMerger merge(mesh);
+  NodeWelder merge(mesh);
   TextScanner scan(bytes, file);
   std::vector<NodeId> loop;
   bool ended = false, inside = false;
@@ -89,8 +73,7 @@ TriMesh read_ascii(std::string_view bytes, const std::string& file) {
 TriMesh read_stl(std::string_view bytes, const std::string& file) {
   // Binary files may start with 'solid' too: the size that the triangle count implies decides.
   const bool has_count = bytes.size() >= header_size + 4;
-  const std::uint64_t count =
-      has_count ? from_bytes<std::uint32_t>(bytes.substr(header_size), std::endian::little) : 0;
+  const std::uint64_t count = has_count ? from_bytes<std::uint32_t>(bytes.substr(header_size)) : 0;
   if (has_count && bytes.size() == header_size + 4 + count * record_size) return read_binary(bytes, file);
   if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos)
     return read_ascii(bytes, file);
@@ -102,21 +85,21 @@ TriMesh read_stl(std::string_view bytes, const std::string& file) {
 }
 
 void write_stl(std::ostream& out, const TriMesh& mesh) {
-  std::array<char, header_size> header{};
-  constexpr std::string_view title = "binary STL, written by conchoid";
-  std::copy(title.begin(), title.end(), header.begin());
-  out.write(header.data(), header.size());
-  write_little_endian(out, static_cast<std::uint32_t>(mesh.triangle_count()));
-  auto write_vector = [&](const Vec3& x) {
-    for (int k = 0; k < 3; ++k)
-      write_little_endian(out, static_cast<float>(x[k]));
+  std::string bytes = "binary STL, written by conchoid";
+  bytes.resize(header_size, '\0');
+  bytes.reserve(header_size + 4 + record_size * mesh.triangle_count());
+  append_bytes(bytes, static_cast<std::uint32_t>(mesh.triangle_count()));
+  const auto append_vector = [&](const Vec3& x) {
+    for (const double component : x)
+      append_bytes(bytes, static_cast<float>(component));
   };
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    write_vector(unit_normal(mesh, TriId(t)));
+    append_vector(unit_normal(mesh, TriId(t)));
     for (const Vec3& x : mesh.triangle(TriId(t)))
-      write_vector(x);
-    write_little_endian(out, std::uint16_t{0});
+      append_vector(x);
+    append_bytes(bytes, std::uint16_t{0});
   }
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 }  // namespace conchoid

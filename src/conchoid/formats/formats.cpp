@@ -4,13 +4,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "conchoid/core/atomic_file.hpp"
-#include "conchoid/core/error.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/formats/format_readers.hpp"
 #include "conchoid/formats/mesh_text.hpp"
+#include "conchoid/formats/ply.hpp"
 
 namespace conchoid {
 namespace {
@@ -21,13 +21,23 @@ struct Format {
   void (*write)(std::ostream&, const TriMesh&);
 };
 
+AttributedMesh read_ply_surface(std::string_view bytes, const std::string& file) {
+  PlyMesh ply = read_ply(bytes, file);
+  return {std::move(ply.mesh), std::move(ply.attributes)};
+}
+void write_ply_mesh(std::ostream& out, const TriMesh& mesh) {
+  PlyMesh ply;
+  ply.mesh = mesh;
+  write_ply(out, ply);
+}
+
 /// A format that knows shapes only.
 template <TriMesh (*read)(std::string_view, const std::string&)>
 AttributedMesh bare(std::string_view bytes, const std::string& file) {
   return {read(bytes, file), {}};
 }
 
-constexpr std::array<Format, 4> formats = {{{".ply", read_ply, write_ply},
+constexpr std::array<Format, 4> formats = {{{".ply", read_ply_surface, write_ply_mesh},
                                             {".obj", read_obj, write_obj},
                                             {".stl", bare<read_stl>, write_stl},
                                             {".off", bare<read_off>, write_off}}};
@@ -41,29 +51,11 @@ const Format& format_of(const std::filesystem::path& path) {
   fail_in_file(path.string(), "unknown mesh format '" + ending + "'; use .ply, .obj, .stl or .off");
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    fail_in_file(path.string(), "there is no such mesh file; check the path");
-  if (std::filesystem::is_directory(status))
-    fail_in_file(path.string(), "is a folder, not a mesh file; check the path");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail_in_file(path.string(), "the mesh file cannot be opened; check its permissions");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  std::string bytes;
-  if (!error) bytes.resize(size);
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (error || in.gcount() != static_cast<std::streamsize>(bytes.size()))
-    fail_in_file(path.string(), "the mesh file cannot be read to its end");
-  return bytes;
-}
-
 }  // namespace
 
 AttributedMesh read_surface(const std::filesystem::path& path) {
   const Format& format = format_of(path);
-  const std::string bytes = bytes_of(path);
+  const std::string bytes = read_bytes(path);
   const std::string file = path.string();
   if (bytes.empty()) fail_in_file(file, "the mesh file is empty");
   AttributedMesh surface = format.read(bytes, file);

@@ -8,14 +8,15 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/intersect/corefine_merge.hpp"
-#include "conchoid/intersect/corefine_pairs.hpp"
+#include "conchoid/intersect/inside_pieces.hpp"
 #include "conchoid/intersect/predicates.hpp"
 #include "conchoid/intersect/retriangulate.hpp"
+#include "conchoid/mesh/box_tree.hpp"
+#include "conchoid/mesh/corners.hpp"
 
 namespace conchoid {
 namespace {
 
-using Corners = std::array<NodeId, 3>;
 using Points = std::array<const PerturbedPoint*, 3>;
 
 /// Where an edge of one mesh passes through a triangle of the other: a node of the mouth.
@@ -332,64 +333,13 @@ class Corefinement {
     }
   }
 
-  struct Half {
-    Edge edge;
-    bool along;  ///< the piece runs from edge.a to edge.b
-    std::size_t piece;
-  };
-
-  /// Which sheet pieces lie inside: spreads from the mouth, whose left side is inside; parts without a mouth
-  /// are tested by a ray.
-  std::vector<bool> inside_pieces() const {
-    std::vector<Half> halves;
-    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
-      for (int k = 0; k < 3; ++k) {
-        const NodeId a = sheet_pieces_[p][k], b = sheet_pieces_[p][(k + 1) % 3];
-        halves.push_back({Edge(a, b), a < b, p});
-      }
-    std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-      return x.edge != y.edge ? x.edge < y.edge : x.piece < y.piece;
-    });
-    std::vector<std::pair<Edge, bool>> mouth;  // edge, whether inside is left of a → b
+  /// The mouth's left side is inside.
+  std::vector<MouthSide> mouth_sides() const {
+    std::vector<MouthSide> mouth;
     for (const Segment& s : segments_)
       for (std::size_t k = 0; k + 1 < s.path.size(); ++k)
         mouth.emplace_back(Edge(s.path[k], s.path[k + 1]), s.path[k] < s.path[k + 1]);
-    std::sort(mouth.begin(), mouth.end());
-    std::vector<std::size_t> parent(sheet_pieces_.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::size_t p) {
-      while (parent[p] != p)
-        p = parent[p] = parent[parent[p]];
-      return p;
-    };
-    std::vector<int> votes(sheet_pieces_.size(), 0);
-    auto m = mouth.begin();
-    for (std::size_t begin = 0; begin < halves.size();) {
-      std::size_t end = begin + 1;
-      while (end < halves.size() && halves[end].edge == halves[begin].edge)
-        ++end;
-      if (end - begin > 2) throw InputError("the crack sheet has an edge with more than two triangles");
-      while (m != mouth.end() && m->first < halves[begin].edge)
-        ++m;
-      const bool is_mouth = m != mouth.end() && m->first == halves[begin].edge;
-      if (is_mouth)
-        for (std::size_t i = begin; i < end; ++i)
-          votes[halves[i].piece] += halves[i].along == m->second ? 1 : -1;
-      else if (end - begin == 2)
-        parent[root(halves[begin].piece)] = root(halves[begin + 1].piece);
-      begin = end;
-    }
-    std::vector<int> total(sheet_pieces_.size(), 0);
-    std::vector<bool> touched(sheet_pieces_.size(), false), inside(sheet_pieces_.size(), false);
-    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p) {
-      total[root(p)] += votes[p];
-      if (votes[p] != 0) touched[root(p)] = true;
-    }
-    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
-      if (root(p) == p) inside[p] = touched[p] ? total[p] > 0 : ray_says_inside(sheet_pieces_[p][0]);
-    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
-      inside[p] = inside[root(p)];
-    return inside;
+    return mouth;
   }
 
   /// Parity of the surface triangles between a sheet node and a point far away.
@@ -413,7 +363,8 @@ class Corefinement {
   }
 
   CutComplex keep_inside() {
-    const std::vector<bool> inside = inside_pieces();
+    const std::vector<bool> inside =
+        inside_pieces(sheet_pieces_, mouth_sides(), [&](NodeId n) { return ray_says_inside(n); });
     const std::size_t ns = surface_.node_count();
     std::vector<bool> used(positions_.size(), false);
     for (std::size_t i = 0; i < ns; ++i)

@@ -10,12 +10,7 @@
 namespace conchoid {
 namespace {
 
-using Corners = std::array<NodeId, 3>;
 using Kind = SurfaceSupport::Kind;
-
-bool has(const Corners& c, NodeId n) {
-  return c[0] == n || c[1] == n || c[2] == n;
-}
 
 /// Edge of the equilateral triangle of the same area.
 double size_of(const TriMesh& mesh, TriId t) {

@@ -3,12 +3,6 @@
 namespace conchoid {
 namespace {
 
-using Corners = std::array<NodeId, 3>;
-
-bool has(const Corners& c, NodeId n) {
-  return c[0] == n || c[1] == n || c[2] == n;
-}
-
 /// Number of open ends (0 or 2) if the pieces form one fan around n, else −1.
 int open_ends(NodeId n, const std::vector<Corners>& pieces) {
   std::vector<std::pair<NodeId, NodeId>> link;

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "conchoid/intersect/corefine.hpp"
+#include "conchoid/mesh/corners.hpp"
 
 namespace conchoid {
 
 struct CutPiece {
-  std::array<NodeId, 3> corners;
+  Corners corners;
   TriId parent;
-  bool has(NodeId n) const { return corners[0] == n || corners[1] == n || corners[2] == n; }
+  bool has(NodeId n) const { return conchoid::has(corners, n); }
 };
 
 /// Pieces of the surface or of the sheet, with the pieces around each node.

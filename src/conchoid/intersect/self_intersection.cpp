@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "conchoid/intersect/expansion.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 namespace {
@@ -141,125 +141,6 @@ bool triangles_at_edge_meet(const Vec3& a, const Vec3& b, const Vec3& c, const V
   return turn(a, b, c, pr) == turn(a, b, d, pr);
 }
 
-/// Calls report(s, t), s < t, once for each pair of triangles whose boxes overlap, until it returns false:
-/// halves the set along its longest axis again and again; pairs across a cut are found by a sweep over those
-/// that reach it.
-class BoxPairs {
- public:
-  explicit BoxPairs(const TriMesh& mesh) {
-    boxes_.reserve(mesh.triangle_count());
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      const Triangle x = mesh.triangle(TriId(t));
-      boxes_.push_back({x[0].cwiseMin(x[1]).cwiseMin(x[2]), x[0].cwiseMax(x[1]).cwiseMax(x[2])});
-    }
-    order_.resize(boxes_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-  }
-
-  template <class Report>
-  void for_each(const Report& report) {
-    stop_ = boxes_.empty();
-    if (!stop_) split(0, order_.size(), report);
-  }
-
- private:
-  static constexpr std::size_t leaf_size = 8;
-
-  Box box_of(std::size_t begin, std::size_t end) const {
-    Box box = boxes_[order_[begin]];
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      box.low = box.low.cwiseMin(boxes_[order_[i]].low);
-      box.high = box.high.cwiseMax(boxes_[order_[i]].high);
-    }
-    return box;
-  }
-
-  static bool overlap(const Box& a, const Box& b) {
-    return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-  }
-
-  /// Pairs within a range: within its halves, and across them.
-  template <class Report>
-  void split(std::size_t begin, std::size_t end, const Report& report) {
-    if (end - begin <= leaf_size) {
-      for (std::size_t i = begin; i < end && !stop_; ++i)
-        for (std::size_t j = i + 1; j < end && !stop_; ++j)
-          test(order_[i], order_[j], report);
-      return;
-    }
-    const Box box = box_of(begin, end);
-    Eigen::Index axis = 0;
-    (box.high - box.low).maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
-                     order_.begin() + static_cast<std::ptrdiff_t>(middle),
-                     order_.begin() + static_cast<std::ptrdiff_t>(end), [&](std::size_t s, std::size_t t) {
-                       const double cs = boxes_[s].low[axis] + boxes_[s].high[axis];
-                       const double ct = boxes_[t].low[axis] + boxes_[t].high[axis];
-                       return cs != ct ? cs < ct : s < t;
-                     });
-    split(begin, middle, report);
-    split(middle, end, report);
-    std::vector<std::size_t> left(order_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                  order_.begin() + static_cast<std::ptrdiff_t>(middle));
-    std::vector<std::size_t> right(order_.begin() + static_cast<std::ptrdiff_t>(middle),
-                                   order_.begin() + static_cast<std::ptrdiff_t>(end));
-    across(left, right, axis, report);
-  }
-
-  /// Pairs between two sets: only those whose boxes reach the other set's box, swept along the axis with the
-  /// largest extent besides the one that divides them.
-  template <class Report>
-  void across(std::vector<std::size_t>& left, std::vector<std::size_t>& right, Eigen::Index axis,
-              const Report& report) {
-    auto box_around = [&](const std::vector<std::size_t>& set) {
-      Box box = boxes_[set.front()];
-      for (std::size_t t : set) {
-        box.low = box.low.cwiseMin(boxes_[t].low);
-        box.high = box.high.cwiseMax(boxes_[t].high);
-      }
-      return box;
-    };
-    const Box left_box = box_around(left), right_box = box_around(right);
-    std::erase_if(left, [&](std::size_t t) { return !overlap(boxes_[t], right_box); });
-    std::erase_if(right, [&](std::size_t t) { return !overlap(boxes_[t], left_box); });
-    if (left.empty() || right.empty()) return;
-    Vec3 extent = left_box.high - left_box.low;
-    extent[axis] = -1;
-    Eigen::Index sweep = 0;
-    extent.maxCoeff(&sweep);
-    auto by_low_end = [&](std::size_t s, std::size_t t) {
-      const double ls = boxes_[s].low[sweep], lt = boxes_[t].low[sweep];
-      return ls != lt ? ls < lt : s < t;
-    };
-    std::sort(left.begin(), left.end(), by_low_end);
-    std::sort(right.begin(), right.end(), by_low_end);
-    auto sweep_one_way = [&](const std::vector<std::size_t>& from, const std::vector<std::size_t>& to,
-                             bool also_equal) {
-      std::size_t first = 0;
-      for (std::size_t s : from) {
-        const double low = boxes_[s].low[sweep], high = boxes_[s].high[sweep];
-        while (first < to.size() &&
-               (also_equal ? boxes_[to[first]].low[sweep] < low : boxes_[to[first]].low[sweep] <= low))
-          ++first;
-        for (std::size_t i = first; i < to.size() && boxes_[to[i]].low[sweep] <= high && !stop_; ++i)
-          test(s, to[i], report);
-      }
-    };
-    sweep_one_way(left, right, true);
-    sweep_one_way(right, left, false);
-  }
-
-  template <class Report>
-  void test(std::size_t s, std::size_t t, const Report& report) {
-    if (overlap(boxes_[s], boxes_[t]) && !report(std::min(s, t), std::max(s, t))) stop_ = true;
-  }
-
-  std::vector<Box> boxes_;
-  std::vector<std::size_t> order_;
-  bool stop_ = false;
-};
-
 }  // namespace
 
 bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t) {
@@ -293,12 +174,14 @@ bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<Nod
 
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit) {
   std::vector<std::pair<TriId, TriId>> found;
-  if (limit == 0) return found;
-  BoxPairs(mesh).for_each([&](std::size_t s, std::size_t t) {
-    if (triangles_intersect(mesh, TriId(s), TriId(t))) found.emplace_back(TriId(s), TriId(t));
-    return found.size() < limit;
-  });
-  std::sort(found.begin(), found.end());
+  const BoxTree tree(mesh);
+  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+    const TriId s(i);
+    for (const TriId t : tree.overlapping(box_of(mesh.triangle(s)))) {
+      if (found.size() >= limit) return found;
+      if (s < t && triangles_intersect(mesh, s, t)) found.emplace_back(s, t);
+    }
+  }
   return found;
 }
 

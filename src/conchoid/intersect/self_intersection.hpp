@@ -15,7 +15,7 @@ bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t);
 bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<NodeId, 3> a,
                          std::array<NodeId, 3> b);
 
-/// All pairs of triangles that intersect, s < t, ascending; stops after `limit` pairs.
+/// The first `limit` pairs of triangles that intersect, s < t, ascending.
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit);
 
 }  // namespace conchoid

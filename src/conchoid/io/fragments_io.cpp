@@ -6,8 +6,9 @@
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/numbers.hpp"
+#include "conchoid/formats/ply.hpp"
 #include "conchoid/io/colors.hpp"
-#include "conchoid/io/ply.hpp"
+#include "conchoid/io/level_set.hpp"
 #include "conchoid/surface/convex_hull.hpp"
 #include "conchoid/surface/corner_normals.hpp"
 
@@ -76,6 +77,7 @@ FragmentFormats formats_from_names(const std::vector<std::string>& names, const 
     if (std::none_of(std::begin(named_formats), std::end(named_formats),
                      [&](const NamedFormat& f) { return f.name == name; }))
       throw InputError(where + ": format '" + name + "' is not known; choose from " + all);
+  if (formats.vdb) require_level_sets(where);
   return formats;
 }
 
@@ -90,15 +92,18 @@ SurfaceAttributes written_attributes(const Fragment& fragment) {
 }
 
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment) {
-  const auto normal = written_attributes(fragment).normal;
-  write_ply(path, {.mesh = fragment.mesh,
-                   .face_kind = fragment.face_kind,
-                   .source = fragment.source,
-                   .frame = {},
-                   .material = fragment.attributes.material,
-                   .uv = fragment.attributes.uv,
-                   .normal = node_normals(fragment.mesh, fragment.face_kind, normal),
-                   .corner_normal = normal});
+  PlyMesh ply;
+  ply.mesh = fragment.mesh;
+  ply.attributes = fragment.attributes;
+  ply.attributes.normal = written_attributes(fragment).normal;
+  ply.node_normal = node_normals(fragment.mesh, fragment.face_kind, ply.attributes.normal);
+  for (const FaceKind kind : fragment.face_kind) {
+    ply.color.push_back(to_bytes(color_of(kind)));
+    ply.kind.push_back(static_cast<int>(kind));
+  }
+  for (const TriId source : fragment.source)
+    ply.source.push_back(source.value);
+  write_ply(path, ply);
 }
 
 void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragment>& fragments) {

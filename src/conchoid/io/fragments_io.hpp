@@ -21,7 +21,7 @@ FragmentFormats formats_from_names(const std::vector<std::string>& names, const 
 /// One fragment as binary PLY in double precision: triangles share nodes (the file is as watertight as the
 /// fragment) and therefore have one normal each, see node_normals(); each face carries its colour, its kind
 /// (0 original, 1 fracture), its source triangle, the normals of its corners (list normals), which
-/// read_surface() prefers, and, where the fragment is dressed, its material id and the texture coordinates of
+/// read_surface() prefers, and, where the fragment has attributes, its material id and the texture coordinates of
 /// its corners (list texcoord). Coordinates are the body's.
 void write_fragment_ply(const std::filesystem::path& path, const Fragment& fragment);
 
@@ -45,8 +45,8 @@ void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragme
 /// "fragment_007".
 std::string fragment_name(std::size_t i);
 
-/// What the fragment was dressed with; plain normals and the two materials "original" and "fracture" where it
-/// was not.
+/// The attributes of the fragment; plain normals and the two materials "original" and "fracture" where it has
+/// none.
 SurfaceAttributes written_attributes(const Fragment& fragment);
 
 }  // namespace conchoid

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "conchoid/core/atomic_file.hpp"
-#include "conchoid/io/byte_order.hpp"
+#include "conchoid/core/byte_order.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/io/colors.hpp"
 #include "conchoid/io/fragments_io.hpp"
 
@@ -192,10 +192,7 @@ void write_fragments_glb(const std::filesystem::path& path, const std::vector<Fr
   Document document;
   for (const Fragment& fragment : fragments)
     document.add(fragment, contacts);
-  const std::string bytes = document.bytes();
-  AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.commit();
+  write_bytes(path, document.bytes());
 }
 
 }  // namespace conchoid

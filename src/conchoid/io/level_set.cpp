@@ -64,6 +64,8 @@ void name_by_content(std::string& bytes) {
 
 }  // namespace
 
+void require_level_sets(const std::string&) {}
+
 void write_fragments_vdb(const std::filesystem::path& path, const std::vector<Fragment>& fragments,
                          double voxel) {
   openvdb::initialize();

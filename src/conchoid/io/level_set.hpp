@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "conchoid/surface/fragments.hpp"
@@ -14,5 +15,8 @@ namespace conchoid {
 /// @throws ComputationError where a piece would be more than 10⁶ voxels long
 void write_fragments_vdb(const std::filesystem::path& path, const std::vector<Fragment>& fragments,
                          double voxel);
+
+/// Throws InputError that begins with `where` in a build without OpenVDB: known before a run, not after it.
+void require_level_sets(const std::string& where);
 
 }  // namespace conchoid

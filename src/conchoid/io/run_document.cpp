@@ -108,12 +108,17 @@ FrameRecord frame_from(const Json& json) {
   return f;
 }
 
-RunDocument document_from(const Json& json) {
+RunDocument document_from(const Json& json, const std::filesystem::path& path) {
   RunDocument d;
   d.method = json.at("method").get<std::string>();
   d.frames = json.at("frames").get<int>();
   d.resumed_after = json.value("resumed_after", 0);
-  d.stop = json.at("stop").get<std::string>();
+  const std::string stop = json.at("stop").get<std::string>();
+  const auto reason = stop_reason_from_name(stop);
+  if (!reason)
+    throw InputError(path.string() + ": 'stop' is '" + stop +
+                     "', which no run of this program says; run the scene again with this program");
+  d.stop = *reason;
   d.initial_triangles = json.at("triangles").at("initial").get<std::size_t>();
   d.final_triangles = json.at("triangles").at("final").get<std::size_t>();
   const Json& seconds = json.at("seconds");
@@ -169,7 +174,7 @@ std::string run_json(const RunDocument& d, RunJson extent) {
   out["method"] = d.method;
   out["frames"] = d.frames;
   if (d.resumed_after > 0) out["resumed_after"] = d.resumed_after;
-  out["stop"] = d.stop;
+  out["stop"] = name(d.stop);
   out["triangles"] = {{"initial", d.initial_triangles}, {"final", d.final_triangles}};
   out["seconds"] = {{"total", d.total_seconds},
                     {"opening", d.opening_seconds},
@@ -212,7 +217,7 @@ RunDocument read_run_json(const std::filesystem::path& path) {
       throw InputError(path.string() + ": written as version " + json.at("version").dump() +
                        " of the format, this program reads version " + std::to_string(format_version) +
                        "; run the scene again with this program");
-    return document_from(json);
+    return document_from(json, path);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path.string() + ": damaged (" + error.what() + "); run the scene again with --out");
   }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "conchoid/io/outcome.hpp"
 #include "conchoid/surface/contacts.hpp"
 
 namespace conchoid {
@@ -21,7 +22,7 @@ struct RunSetting {
 struct FrameRecord {
   int frame = 0;
   std::string
-      source;  ///< who gave the opening: "bem", "forest", "steady", "carried" (nothing could be solved), …
+      source;  ///< who gave the opening: a method (sim/methods.hpp) or "carried" (nothing could be solved)
   std::size_t crack_triangles = 0;  ///< BEM crack triangles after the frame
   std::size_t front_nodes = 0;
   double max_K_eff = 0;  ///< largest effective intensity along the fronts [Pa √m]
@@ -43,8 +44,8 @@ FragmentRecord fragment_record(const Fragment& fragment);
 /// Everything a run reports: the content of run.json, and of `run --json`.
 struct RunDocument {
   std::string scene_file, scene_text;
-  std::string method;  ///< "bem", "forest", "steady", "stress", "hybrid"
-  std::string stop;    ///< "arrested", "separated", "frame-limit", …
+  std::string method;  ///< "bem", "steady", "forest", …: sim/methods.hpp
+  StopReason stop = StopReason::frame_limit;
   int frames = 0;
   int resumed_after = 0;  ///< complete frames that were found; the times are those of the run that went on
   std::size_t initial_triangles = 0, final_triangles = 0;

@@ -9,8 +9,8 @@
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/formats/formats.hpp"
+#include "conchoid/formats/ply.hpp"
 #include "conchoid/io/level_set.hpp"
-#include "conchoid/io/ply.hpp"
 
 namespace conchoid {
 namespace {
@@ -166,6 +166,20 @@ bool wrote_ply(const RunDocument& document) {
   return true;
 }
 
+std::vector<FaceKind> face_kinds(const std::vector<int>& numbers) {
+  std::vector<FaceKind> kinds;
+  for (const int number : numbers)
+    kinds.push_back(number == 0 ? FaceKind::original : FaceKind::fracture);
+  return kinds;
+}
+
+std::vector<TriId> triangle_ids(const std::vector<int>& numbers) {
+  std::vector<TriId> ids;
+  for (const int number : numbers)
+    ids.push_back(TriId(number));
+  return ids;
+}
+
 void FrameMesh::check_lengths() const {
   const std::size_t body_nodes = data_.body.node_count(), body_triangles = data_.body.triangle_count();
   check_length("displacement", data_.displacement.size(), body_nodes);
@@ -210,7 +224,10 @@ void RunFolder::write_front_csv(const std::vector<FrontRow>& rows) {
 }
 
 void RunFolder::write_crack(const TriMesh& crack, const std::vector<int>& frame) {
-  write_ply(path_ / "crack.ply", {crack, {}, {}, frame});
+  PlyMesh ply;
+  ply.mesh = crack;
+  ply.frame = frame;
+  write_ply(path_ / "crack.ply", ply);
 }
 
 void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const FragmentFormats& formats,
@@ -254,13 +271,13 @@ RunData read_run(const fs::path& path) {
     const fs::path file = path / "fragments" / (fragment_name(i) + ".ply");
     PlyMesh ply = read_ply(file);
     const FragmentRecord& record = run.document.fragments[i];
-    if (ply.mesh.triangle_count() != record.triangles || ply.face_kind.size() != record.triangles)
+    if (ply.mesh.triangle_count() != record.triangles || ply.kind.size() != record.triangles)
       refuse_folder(file, "has " + std::to_string(ply.mesh.triangle_count()) +
                               " triangles where run.json says " + std::to_string(record.triangles) +
                               "; run the scene again with --out");
     run.fragments.push_back({std::move(ply.mesh),
-                             std::move(ply.face_kind),
-                             std::move(ply.source),
+                             face_kinds(ply.kind),
+                             triangle_ids(ply.source),
                              record.volume,
                              record.mass,
                              record.center_of_mass,

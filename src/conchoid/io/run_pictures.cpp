@@ -16,13 +16,6 @@ namespace fs = std::filesystem;
 constexpr double ghost_opacity = 0.22;
 constexpr std::size_t most_rows = 20000;  // of front.csv that colours are taken from
 
-std::string method_title(const std::string& method) {
-  if (method == "bem") return "solved by boundary elements";
-  if (method == "forest") return "predicted by a forest";
-  if (method == "steady") return "predicted, K stays as it is";
-  return method;
-}
-
 std::string counted(std::size_t n, const std::string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
@@ -30,7 +23,7 @@ std::string counted(std::size_t n, const std::string& what) {
 std::string run_caption(const RunDocument& d) {
   char seconds[32];
   std::snprintf(seconds, sizeof seconds, "%.2f s", d.total_seconds);
-  return d.stop + " after " + counted(static_cast<std::size_t>(d.frames), "frame") + ", " +
+  return std::string(name(d.stop)) + " after " + counted(static_cast<std::size_t>(d.frames), "frame") + ", " +
          counted(d.fragments.size(), "piece") + ", " + seconds;
 }
 
@@ -233,7 +226,7 @@ RunView run_view_from_name(const std::string& name) {
 
 PicturePanel run_panel(const RunData& run, const fs::path& folder, const RunPictureSettings& settings) {
   PicturePanel panel;
-  panel.title = method_title(run.document.method);
+  panel.title = run.document.method;
   panel.caption = run_caption(run.document);
   switch (settings.view) {
     case RunView::pieces:

@@ -24,7 +24,7 @@ struct RunPictureSettings {
   double exaggerate = 0;  ///< opening: the two faces are moved apart by so many times the opening
 };
 
-/// One panel for a run, with title and caption.
+/// One panel for a run, with its method as title and a caption.
 /// @param folder  of the run: its frames are read for the view `opening`
 PicturePanel run_panel(const RunData& run, const std::filesystem::path& folder,
                        const RunPictureSettings& settings);

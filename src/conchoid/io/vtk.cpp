@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "conchoid/core/atomic_file.hpp"
+#include "conchoid/core/byte_order.hpp"
 #include "conchoid/core/numbers.hpp"
-#include "conchoid/io/byte_order.hpp"
 
 namespace conchoid {
 namespace {

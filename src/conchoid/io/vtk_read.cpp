@@ -2,10 +2,10 @@
 // byte count before them.
 #include <array>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <string_view>
 
+#include "conchoid/core/byte_order.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/io/vtk.hpp"
 
@@ -14,13 +14,7 @@ namespace {
 
 class VtuReader {
  public:
-  explicit VtuReader(const std::filesystem::path& path) : path_(path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) refuse("cannot be opened; check the name and the permissions");
-    std::ostringstream content;
-    content << in.rdbuf();
-    text_ = content.str();
-  }
+  explicit VtuReader(const std::filesystem::path& path) : path_(path), text_(read_bytes(path)) {}
 
   VtuMesh run() const {
     VtuMesh out;
@@ -103,16 +97,12 @@ class VtuReader {
 
   template <class T>
   std::vector<double> numbers(const std::string& raw) const {
-    std::uint64_t size = 0;
     if (raw.size() < 8) refuse("an array is cut off; make the run again");
-    std::memcpy(&size, raw.data(), 8);
+    const auto size = from_bytes<std::uint64_t>(raw);
     if (size + 8 != raw.size() || size % sizeof(T) != 0) refuse("an array is cut off; make the run again");
     std::vector<double> out;
-    for (std::size_t at = 8; at < raw.size(); at += sizeof(T)) {
-      T value;
-      std::memcpy(&value, raw.data() + at, sizeof(T));
-      out.push_back(static_cast<double>(value));
-    }
+    for (std::size_t at = 8; at < raw.size(); at += sizeof(T))
+      out.push_back(static_cast<double>(from_bytes<T>(std::string_view(raw).substr(at))));
     return out;
   }
 

@@ -90,6 +90,8 @@ class DatabaseWriter {
   std::unique_ptr<State> state_;
 };
 
+/// Throws InputError that begins with the file in a build without HDF5: known before runs are made, not after.
+void require_databases(const std::filesystem::path& file);
 /// Throws InputError that names file and remedy if it is truncated, corrupt, foreign or of a newer version.
 Database read_database(const std::filesystem::path& file);
 /// The file appears complete or not at all. The same database gives the same bytes.

@@ -175,6 +175,7 @@ void DatabaseWriter::State::remove_folder() const {
 
 DatabaseWriter::DatabaseWriter(fs::path file, DatabaseHeader header, bool resume)
     : state_(std::make_unique<State>()) {
+  require_databases(file);
   check_header(header);
   state_->file = std::move(file);
   state_->folder = parts_folder(state_->file);

@@ -62,26 +62,35 @@ Accuracy accuracy(const SampleSet& samples, const std::vector<Vec3>& openings) {
   return result;
 }
 
-Evaluation evaluate(const RegressionForest& forest, const SampleSet& samples) {
+Score score(const OpeningPredictor& predictor, const SampleSet& samples) {
+  Score result;
+  result.name = predictor.name();
+  std::vector<Vec3> openings;
+  const std::vector<OpeningPrediction> predictions = predictor.predict_openings(samples);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    openings.push_back(predictions[i].opening);
+    result.in_range += predictions[i].in_range;
+    result.spread +=
+        (predictions[i].spread / samples[i].resolution).cwiseAbs2() / static_cast<double>(samples.size());
+  }
+  result.spread = result.spread.cwiseSqrt();
+  result.accuracy = accuracy(samples, openings);
+  return result;
+}
+
+Evaluation evaluate(const Regressor& model, const SampleSet& samples,
+                    const std::vector<const OpeningPredictor*>& baselines) {
   if (samples.empty())
-    throw InputError("there are no samples to evaluate the forest on; name a database with runs that crack");
+    throw InputError("there are no samples to evaluate on; name a database with runs that crack");
   samples.validate();
+  require_recorded(model.feature_set(), samples);
   Evaluation result;
   result.samples = samples.size();
   result.runs = distinct_runs(samples).size();
-  result.seen_in_training = samples.hash() == forest.provenance().samples_hash;
-  std::vector<Vec3> predicted, steady;
-  const std::vector<OpeningPrediction> predictions = forest.predict_openings(samples);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Sample s = samples[i];
-    predicted.push_back(predictions[i].opening);
-    steady.push_back(steady_opening(s));
-    result.in_range += predictions[i].in_range;
-    result.spread += (predictions[i].spread / s.resolution).cwiseAbs2() / static_cast<double>(samples.size());
-  }
-  result.spread = result.spread.cwiseSqrt();
-  result.forest = accuracy(samples, predicted);
-  result.baseline_steady = accuracy(samples, steady);
+  result.seen_in_training = samples.hash() == model.provenance().samples_hash;
+  result.model = score(model, samples);
+  for (const OpeningPredictor* baseline : baselines)
+    result.baselines.push_back(score(*baseline, samples));
   return result;
 }
 

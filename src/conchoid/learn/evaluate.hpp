@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
-#include "conchoid/learn/forest.hpp"
-#include "conchoid/learn/sample.hpp"
+#include "conchoid/learn/regressor.hpp"
 
 namespace conchoid {
 
@@ -23,22 +24,30 @@ struct Accuracy {
   Vec3 r2 = Vec3::Zero();  ///< 1 − Σ error² / Σ (Δu/r̄ − mean)², 1 = perfect, 0 = no better than the mean
 };
 
+/// What one predictor does on some samples.
+struct Score {
+  std::string name;  ///< OpeningPredictor::name
+  Accuracy accuracy;
+  std::size_t in_range = 0;  ///< samples that are not beyond its training
+  /// Root mean square of the spread that it states, of Δu/r̄: to compare with rmse.
+  Vec3 spread = Vec3::Zero();
+};
+
 struct Evaluation {
   std::size_t samples = 0, runs = 0;
-  Accuracy forest;
-  Accuracy baseline_steady;  ///< "K stays as it is", no training
-  std::size_t in_range = 0;  ///< samples whose features lie within the range of the training
-  Vec3 spread =
-      Vec3::Zero();  ///< root mean square of the spread between the trees, of Δu/r̄: to compare with rmse
-  bool seen_in_training =
-      false;  ///< these are exactly the samples the forest was trained on: the figures flatter it
+  Score model;
+  std::vector<Score> baselines;
+  /// These are exactly the samples the model was trained on: the figures flatter it.
+  bool seen_in_training = false;
 };
 
 /// Accuracy of any predicted openings [m] for samples.
 Accuracy accuracy(const SampleSet& samples, const std::vector<Vec3>& openings);
+Score score(const OpeningPredictor& predictor, const SampleSet& samples);
 
-/// One-step accuracy of a forest and of the steady baseline on the same samples. Throws InputError if there
-/// are none.
-Evaluation evaluate(const RegressionForest& forest, const SampleSet& samples);
+/// One-step accuracy of a regressor and of baselines on the same samples. Throws InputError if there are none, or
+/// if they lack what its feature set looks at.
+Evaluation evaluate(const Regressor& model, const SampleSet& samples,
+                    const std::vector<const OpeningPredictor*>& baselines = {&steady_predictor()});
 
 }  // namespace conchoid

@@ -1,5 +1,6 @@
 #include "conchoid/learn/features.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -94,6 +95,31 @@ std::size_t feature_count(FeatureSet set) {
       return 14;
   }
   return 0;
+}
+
+std::vector<std::string> context_fields(FeatureSet set) {
+  if (set != FeatureSet::dimensionless_context) return {};
+  return {"front_curvature", "surface_distance", "traction_I", "traction_II", "traction_III"};
+}
+
+void refuse_empty_fields(FeatureSet set, const std::vector<std::string>& empty, const std::string& where) {
+  std::string names;
+  for (const std::string& name : empty)
+    names += (names.empty() ? "" : ", ") + name;
+  throw InputError("feature set " + std::string(name(set)) + " looks at " + names + ", which " + where +
+                   " nowhere hold; use another feature set, such as dimensionless");
+}
+
+void require_recorded(FeatureSet set, const SampleSet& samples) {
+  std::vector<std::string> empty;
+  for (const std::string& wanted : context_fields(set)) {
+    const auto& fields = SampleSet::fields();
+    const auto at = std::find_if(fields.begin(), fields.end(),
+                                 [&](const SampleField& field) { return field.name == wanted; });
+    const std::vector<double>& values = samples.field(static_cast<std::size_t>(at - fields.begin()));
+    if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0; })) empty.push_back(wanted);
+  }
+  if (!empty.empty()) refuse_empty_fields(set, empty, "these samples");
 }
 
 void features(const Sample& s, FeatureSet set, std::span<double> row) {

@@ -10,7 +10,7 @@
 namespace conchoid {
 
 // clang-format off
-/// What a forest looks at and what it predicts. K at frame n−1 [Pa√m], r⁻ and r⁺ the correlation distances at
+/// What a regressor looks at and what it predicts. K at frame n−1 [Pa√m], r⁻ and r⁺ the correlation distances at
 /// frames n−1 and n [m], Δu the opening at frame n [m], r̄ the resolution [m], κ the front's curvature [1/m].
 ///
 /// | set                   | features                                                     | label        |
@@ -23,12 +23,12 @@ namespace conchoid {
 /// | dimensionless-context | the same, κ r̄, r̄/(r̄ + surface distance), √r̄ traction/S       | the same     |
 ///
 /// S² = K_I² + K_II² + K_III²/(1−ν) + K_c² > 0, and K⁺ is the intensity that the opening Δu at distance r⁺ stands
-/// for (displacement correlation). K⁺ = K says "K stays as it is": the dimensionless forest learns the correction
+/// for (displacement correlation). K⁺ = K says "K stays as it is": a dimensionless regressor learns the correction
 /// to the steady prediction, so a load never seen before is still met by a correction of the right order.
 ///
 /// Scale: a physically scaled copy (size × s, E × k, stress × k, K_c × k√s, r̄ × s) has the same dimensionless
 /// features and labels. E enters nowhere else: elasticity is linear, so K and K_c already tell the load, and
-/// K_c/(E√r̄) would only tie a forest to one material.
+/// K_c/(E√r̄) would only tie a regressor to one material.
 ///
 /// Signs: reversing the crack normal negates (K_II, Δu_II) and nothing else; mirroring the body across the plane
 /// of e1 and e2 negates (K_III, Δu_III). The dimensionless sets look at the absolute values and give labels and
@@ -43,6 +43,15 @@ std::string_view name(FeatureSet set);
 FeatureSet feature_set_from_name(std::string_view name);
 std::vector<std::string> feature_names(FeatureSet set);
 std::size_t feature_count(FeatureSet set);
+
+/// Recorded quantities that the set looks at and that a sample need not hold, by their names in
+/// SampleSet::fields(): zero where nobody measured them.
+std::vector<std::string> context_fields(FeatureSet set);
+/// Throws InputError that names those of them that are zero in every sample.
+void require_recorded(FeatureSet set, const SampleSet& samples);
+/// The error of require_recorded. @param empty  names of the fields @param where  what does not hold them
+[[noreturn]] void refuse_empty_fields(FeatureSet set, const std::vector<std::string>& empty,
+                                      const std::string& where);
 
 /// Writes the features of one sample to row (feature_count(set) numbers).
 void features(const Sample& sample, FeatureSet set, std::span<double> row);

@@ -1,78 +1,16 @@
-// File of a forest, little-endian throughout:
-//   magic (8 bytes) · version u32 · byte-order mark u32 · length of the rest without checksum u64
-//   description (JSON text: settings, provenance, feature names, ranges, label scales) · per mode: number of
-//   trees u32, per tree: number of nodes u32, feature i32[], left i32[], right i32[], threshold f32[], value
-//   f32[] xxHash64 of all bytes before it u64
+// What the file of a forest holds behind its description (regressor_file.cpp):
+//   per mode: number of trees u32, per tree: number of nodes u32, feature i32[], left i32[], right i32[],
+//   threshold f32[], value f32[]
 #include <nlohmann/json.hpp>
 
 #include "conchoid/core/error.hpp"
-
-#include <algorithm>
-#include "conchoid/core/bytes.hpp"
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor_kinds.hpp"
 
 namespace conchoid {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::string_view magic = "CNCHFRST";
-constexpr std::uint32_t version = 1;
-constexpr std::uint32_t byte_order_mark = 0x01020304;
-constexpr std::size_t header_size = 8 + 4 + 4 + 8;
-
-constexpr const char* train_again = "train it again with `conchoid forest train`";
-
-json to_json(const MaterialRecord& m) {
-  return {{"youngs_modulus", m.youngs_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
-
-MaterialRecord material_from(const json& j) {
-  return {j.at("youngs_modulus"), j.at("poisson_ratio"), j.at("density"),
-          j.at("strength"),       j.at("toughness"),     j.at("compressive_factor")};
-}
-
-json to_json(const Provenance& p) {
-  return {{"models", p.models},
-          {"material", to_json(p.material)},
-          {"resolution", p.resolution},
-          {"runs", p.runs},
-          {"samples", p.samples},
-          {"samples_hash", p.samples_hash},
-          {"spec", p.spec}};
-}
-
-Provenance provenance_from(const json& j) {
-  Provenance p;
-  p.models = j.at("models").get<std::vector<std::string>>();
-  p.material = material_from(j.at("material"));
-  p.resolution = j.at("resolution");
-  p.runs = j.at("runs");
-  p.samples = j.at("samples");
-  p.samples_hash = j.at("samples_hash");
-  p.spec = j.at("spec");
-  return p;
-}
-
-json to_json(const std::vector<FeatureRange>& ranges) {
-  json list = json::array();
-  for (const FeatureRange& r : ranges)
-    list.push_back({{"minimum", r.minimum}, {"maximum", r.maximum}, {"quantiles", r.quantiles}});
-  return list;
-}
-
-json to_json(const Vec3& v) {
-  return {v[0], v[1], v[2]};
-}
-
-Vec3 vec_from(const json& j) {
-  return Vec3(j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>());
-}
 
 void put_trees(ByteWriter& out, const TreeEnsemble& ensemble) {
   const std::vector<RegressionTree> trees = ensemble.trees();
@@ -102,91 +40,74 @@ TreeEnsemble get_trees(ByteReader& in, int features) {
   return TreeEnsemble(trees, features);
 }
 
-/// Checks magic, version, byte order, length and checksum; returns what lies between header and checksum.
-std::string_view open_envelope(std::string_view bytes, const std::string& file) {
-  if (bytes.substr(0, magic.size()) != magic.substr(0, std::min(bytes.size(), magic.size())) || bytes.empty())
-    throw InputError(file + ": is not a conchoid forest; name a file written by `conchoid forest train`");
-  if (bytes.size() < header_size + 8)
-    throw InputError(file + ": is truncated; copy it again or " + train_again);
-  ByteReader in(bytes.substr(magic.size()));
-  const auto file_version = in.get<std::uint32_t>();
-  const auto order = in.get<std::uint32_t>();
-  const auto length = in.get<std::uint64_t>();
-  if (order != byte_order_mark)
-    throw InputError(file + ": its byte order is damaged; copy it again in binary mode or " + train_again);
-  if (file_version != version)
-    throw InputError(file + ": has version " + std::to_string(file_version) +
-                     ", this program reads version " + std::to_string(version) +
-                     "; use the program that wrote it or " + train_again);
-  if (length > in.left() || in.left() - length < 8)
-    throw InputError(file + ": is truncated; copy it again or " + train_again);
-  if (in.left() - length > 8)
-    throw InputError(file + ": has extra bytes at its end; copy it again or " + train_again);
-  const std::string_view content = in.get_raw(length);
-  if (in.get<std::uint64_t>() != hash_bytes(bytes.substr(0, bytes.size() - 8)))
-    throw InputError(file + ": is corrupt (its checksum is wrong); copy it again or " + train_again);
-  return content;
-}
-
 }  // namespace
 
-void RegressionForest::save(const std::filesystem::path& file) const {
-  const json description = {
-      {"format", "conchoid forest"},
-      {"features", name(settings_.features)},
-      {"feature_names", feature_names(settings_.features)},
-      {"trees", settings_.trees},
-      {"depth", settings_.depth},
-      {"seed", settings_.seed},
-      {"bins", settings_.bins},
-      {"ranges", to_json(ranges_)},
-      {"label_mean", to_json(label_mean_)},
-      {"label_scale", to_json(label_scale_)},
-      {"provenance", to_json(provenance_)},
-  };
-  ByteWriter content;
-  content.put_text(description.dump(-1, ' ', false, json::error_handler_t::replace));
+std::string RegressionForest::settings_json() const {
+  return json{{"trees", settings_.trees},
+              {"depth", settings_.depth},
+              {"seed", settings_.seed},
+              {"bins", settings_.bins}}
+      .dump();
+}
+
+std::string RegressionForest::fit_json() const {
+  json nodes = json::array();
   for (const TreeEnsemble& ensemble : ensembles_)
-    put_trees(content, ensemble);
-  ByteWriter out;
-  out.put_raw(magic);
-  out.put(version);
-  out.put(byte_order_mark);
-  out.put(static_cast<std::uint64_t>(content.bytes().size()));
-  out.put_raw(content.bytes());
-  out.put(hash_bytes(out.bytes()));
-  write_bytes(file, out.bytes());
+    nodes.push_back(ensemble.node_count());
+  return json{{"nodes", nodes}}.dump();
+}
+
+std::string RegressionForest::summary() const {
+  return "trees       " + std::to_string(settings_.trees) + " of depth " + std::to_string(settings_.depth) +
+         " per mode";
+}
+
+void RegressionForest::write_fit(ByteWriter& out) const {
+  for (const TreeEnsemble& ensemble : ensembles_)
+    put_trees(out, ensemble);
+}
+
+std::unique_ptr<Regressor> RegressionForest::read(TrainingRecord record, const std::string& settings,
+                                                  ByteReader& fit) {
+  const json d = json::parse(settings);
+  const ForestSettings s{d.at("trees"), d.at("depth"), record.features, d.at("seed"), d.at("bins")};
+  auto forest = std::make_unique<RegressionForest>(RegressionForest(std::move(record), s));
+  for (TreeEnsemble& ensemble : forest->ensembles_) {
+    ensemble = get_trees(fit, static_cast<int>(forest->ranges().size()));
+    if (ensemble.tree_count() != static_cast<std::size_t>(s.trees))
+      throw InputError("the number of trees is wrong");
+  }
+  return forest;
 }
 
 RegressionForest RegressionForest::load(const std::filesystem::path& file) {
-  const std::string bytes = read_bytes(file);
-  ByteReader in(open_envelope(bytes, file.string()));
-  try {
-    const json d = json::parse(in.get_text());
-    RegressionForest forest;
-    forest.settings_ = {d.at("trees"), d.at("depth"),
-                        feature_set_from_name(d.at("features").get<std::string>()), d.at("seed"),
-                        d.at("bins")};
-    if (d.at("feature_names").get<std::vector<std::string>>() != feature_names(forest.settings_.features))
-      throw InputError("feature set " + std::string(name(forest.settings_.features)) +
-                       " has changed since the forest was trained");
-    for (const json& r : d.at("ranges"))
-      forest.ranges_.push_back(
-          {r.at("minimum"), r.at("maximum"), r.at("quantiles").get<std::array<double, 7>>()});
-    if (forest.ranges_.size() != feature_count(forest.settings_.features))
-      throw InputError("the number of feature ranges is wrong");
-    forest.label_mean_ = vec_from(d.at("label_mean"));
-    forest.label_scale_ = vec_from(d.at("label_scale"));
-    forest.provenance_ = provenance_from(d.at("provenance"));
-    for (TreeEnsemble& ensemble : forest.ensembles_) {
-      ensemble = get_trees(in, static_cast<int>(forest.ranges_.size()));
-      if (ensemble.tree_count() != static_cast<std::size_t>(forest.settings_.trees))
-        throw InputError("the number of trees is wrong");
-    }
-    return forest;
-  } catch (const std::exception& e) {
-    throw InputError(file.string() + ": does not hold a valid forest (" + e.what() + "); " + train_again);
-  }
+  const std::unique_ptr<Regressor> regressor = load_regressor(file);
+  if (auto* forest = dynamic_cast<RegressionForest*>(regressor.get())) return std::move(*forest);
+  throw InputError(file.string() + ": holds a " + std::string(regressor_kind(regressor->name()).title) +
+                   ", not a regression forest; train one with `conchoid forest train --model forest`");
+}
+
+RegressorKind forest_kind() {
+  const ForestSettings standard;
+  RegressorKind kind;
+  kind.name = "forest";
+  kind.title = "regression forest";
+  kind.magic = "CNCHFRST";
+  kind.options = {{"trees", "trees per mode", standard.trees, 1, 10000, true},
+                  {"depth", "largest depth of a tree", standard.depth, 1, 20, true}};
+  kind.train = [](const SampleSet& samples, const TrainingSettings& wanted, Provenance provenance,
+                  const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
+    const RegressorKind& own = regressor_kind("forest");
+    ForestSettings settings;
+    settings.trees = static_cast<int>(option_value(own, wanted, "trees").value());
+    settings.depth = static_cast<int>(option_value(own, wanted, "depth").value());
+    settings.features = wanted.features;
+    settings.seed = wanted.seed;
+    return std::make_unique<RegressionForest>(
+        RegressionForest::train(samples, settings, std::move(provenance), progress));
+  };
+  kind.read = &RegressionForest::read;
+  return kind;
 }
 
 }  // namespace conchoid

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace conchoid {
 
 /// The material of the runs that samples come from.
@@ -12,5 +14,8 @@ struct MaterialRecord {
   double compressive_factor = 0;  ///< ratio of compressive to tensile strength
   bool operator==(const MaterialRecord&) const = default;
 };
+
+/// As a JSON object: the names above and their values.
+std::string json_text(const MaterialRecord& material);
 
 }  // namespace conchoid

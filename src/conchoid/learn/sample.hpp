@@ -28,10 +28,10 @@ struct Sample {
   // What else is known in linear time; zero where nobody measured it.
   double front_curvature = 0;   ///< of the front in the crack plane, positive where the crack is convex [1/m]
   double surface_distance = 0;  ///< from the front node along e2 to the body's surface [m], may be infinite
-  Vec3 traction =
-      Vec3::Zero();  ///< σ·e1 of the uncracked body (frame 1) at the front node, in the front frame [Pa]
-  Vec3 opening =
-      Vec3::Zero();  ///< label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]
+  /// σ·e1 of the uncracked body (frame 1) at the front node, in the front frame [Pa]
+  Vec3 traction = Vec3::Zero();
+  /// Label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]
+  Vec3 opening = Vec3::Zero();
 };
 
 /// One real-valued field of a Sample.

@@ -20,15 +20,6 @@ json per_mode(const Vec3& v) {
   return {{"I", v[0]}, {"II", v[1]}, {"III", v[2]}};
 }
 
-json to_json(const MaterialRecord& m) {
-  return {{"youngs_modulus", m.youngs_modulus},
-          {"poisson_ratio", m.poisson_ratio},
-          {"density", m.density},
-          {"strength", m.strength},
-          {"toughness", m.toughness},
-          {"compressive_factor", m.compressive_factor}};
-}
-
 json to_json(const Accuracy& a) {
   return {{"rmse", per_mode(a.rmse)}, {"r2", per_mode(a.r2)}};
 }
@@ -101,7 +92,7 @@ std::string json_text(const DatabaseInfo& info) {
                {"samples", info.samples},
                {"features", info.features},
                {"feature_sets", info.feature_sets},
-               {"material", to_json(info.header.material)},
+               {"material", json::parse(json_text(info.header.material))},
                {"models", info.header.models},
                {"complete", info.complete},
                {"planned_runs", info.header.planned_runs},
@@ -126,44 +117,42 @@ std::string json_text(const DatabaseStatistics& s) {
 }
 
 std::string json_text(const Evaluation& e) {
-  json j = to_json(e.forest);
+  json j = to_json(e.model.accuracy);
+  j["model"] = e.model.name;
   j["samples"] = e.samples;
   j["runs"] = e.runs;
-  j["baseline_steady"] = to_json(e.baseline_steady);
-  j["in_range"] = e.in_range;
-  j["spread"] = per_mode(e.spread);
+  for (const Score& baseline : e.baselines)
+    j["baseline_" + baseline.name] = to_json(baseline.accuracy);
+  j["in_range"] = e.model.in_range;
+  j["spread"] = per_mode(e.model.spread);
   j["seen_in_training"] = e.seen_in_training;
   return text(j);
 }
 
-std::string json_text(const RegressionForest& forest) {
-  const ForestSettings& s = forest.settings();
-  const Provenance& p = forest.provenance();
+std::string json_text(const Regressor& regressor) {
+  const Provenance& p = regressor.provenance();
   json features = json::array();
-  const std::vector<std::string> names = feature_names(s.features);
+  const std::vector<std::string> names = feature_names(regressor.feature_set());
   for (std::size_t i = 0; i < names.size(); ++i)
     features.push_back({{"name", names[i]},
-                        {"minimum", forest.ranges()[i].minimum},
-                        {"maximum", forest.ranges()[i].maximum},
+                        {"minimum", regressor.ranges()[i].minimum},
+                        {"maximum", regressor.ranges()[i].maximum},
                         {"quantile_levels", FeatureRange::levels},
-                        {"quantiles", forest.ranges()[i].quantiles}});
-  json nodes = json::array();
-  for (int mode = 0; mode < 3; ++mode)
-    nodes.push_back(forest.ensemble(mode).node_count());
-  return text({{"feature_set", name(s.features)},
-               {"features", features},
-               {"trees", s.trees},
-               {"depth", s.depth},
-               {"seed", s.seed},
-               {"bins", s.bins},
-               {"nodes", nodes},
-               {"models", p.models},
-               {"material", to_json(p.material)},
-               {"resolution", p.resolution},
-               {"runs", p.runs},
-               {"samples", p.samples},
-               {"samples_hash", hex(p.samples_hash)},
-               {"spec", p.spec}});
+                        {"quantiles", regressor.ranges()[i].quantiles}});
+  json j = json::parse(regressor.settings_json());
+  j.update(json::parse(regressor.fit_json()));
+  j.update({{"model", regressor.name()},
+            {"feature_set", name(regressor.feature_set())},
+            {"features", features},
+            {"models", p.models},
+            {"material", json::parse(json_text(p.material))},
+            {"resolution", p.resolution},
+            {"runs", p.runs},
+            {"samples", p.samples},
+            {"samples_hash", hex(p.samples_hash)},
+            {"content_hash", hex(regressor.content_hash())},
+            {"spec", p.spec}});
+  return text(j);
 }
 
 }  // namespace conchoid

@@ -5,7 +5,7 @@
 
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/evaluate.hpp"
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor.hpp"
 
 namespace conchoid {
 
@@ -43,7 +43,7 @@ DatabaseStatistics database_statistics(const Database& database);
 std::string json_text(const DatabaseInfo& info);
 std::string json_text(const DatabaseStatistics& statistics);
 std::string json_text(const Evaluation& evaluation);
-/// Settings, provenance, ranges and sizes of a forest.
-std::string json_text(const RegressionForest& forest);
+/// Kind, settings, provenance, ranges and sizes of a regressor.
+std::string json_text(const Regressor& regressor);
 
 }  // namespace conchoid

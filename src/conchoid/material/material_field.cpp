@@ -2,12 +2,17 @@
 
 namespace conchoid {
 
-MaterialField::MaterialField(std::vector<FieldFactor> factors, const Vec3& center) {
+MaterialField::MaterialField(std::vector<FieldFactor> factors, const FieldFrame& frame) {
   for (FieldFactor& factor : factors) {
-    const Vec3 origin = factor.placement.origin ? Vec3(*factor.placement.origin - center) : Vec3::Zero();
+    const Vec3 at_rest = factor.placement.origin.value_or(frame.center);
+    const Vec3 origin = frame.turn.transpose() * (at_rest - frame.shift) - frame.origin;
+    factor.placement.axes = frame.turn.transpose() * factor.placement.axes;
     factors_.push_back({std::move(factor), origin});
   }
 }
+
+MaterialField::MaterialField(std::vector<FieldFactor> factors, const Vec3& center)
+    : MaterialField(std::move(factors), FieldFrame{.center = center, .origin = center}) {}
 
 FieldSample MaterialField::at(const Vec3& x) const {
   FieldSample product;

@@ -23,13 +23,23 @@ struct FieldFactor {
   FieldPlacement placement;
 };
 
+/// Where a body lies in its material: a point x that is asked for has the rest position turn · (x + origin) +
+/// shift; fields without a place of their own lie at `center`, at rest.
+struct FieldFrame {
+  Mat3 turn = Mat3::Identity();  ///< a rotation
+  Vec3 shift = Vec3::Zero();     ///< [m]
+  Vec3 center = Vec3::Zero();    ///< [m]
+  Vec3 origin = Vec3::Zero();    ///< of the points asked for, in the body's coordinates [m]
+};
+
 /// How a constant of the material varies in the body: the product of factors, 1 everywhere without any.
 /// Values > 0; value and gradient belong together (C¹). Moving, turning, mirroring or scaling the body and
 /// the factors' lengths and placements carries the values along; by a power of two bit for bit.
 class MaterialField {
  public:
   MaterialField() = default;
-  /// @param center  of the body, in the scene's coordinates: the origin of the points asked for
+  MaterialField(std::vector<FieldFactor> factors, const FieldFrame& frame);
+  /// A body at rest. @param center  of it, in the scene's coordinates: the origin of the points asked for
   MaterialField(std::vector<FieldFactor> factors, const Vec3& center);
 
   /// The field is 1 everywhere.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "conchoid/mesh/tri_mesh.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 
@@ -24,17 +24,8 @@ class ClosestPointTree {
   Hit closest(const Vec3& x) const;
 
  private:
-  struct Branch {
-    Box box;
-    std::size_t begin = 0, end = 0;   ///< range of order_ below this branch
-    std::size_t left = 0, right = 0;  ///< children; 0 for a leaf (the root is nobody's child)
-  };
-
-  std::size_t build(std::size_t begin, std::size_t end);
-
   std::vector<Triangle> triangles_;
-  std::vector<std::size_t> order_;
-  std::vector<Branch> branches_;
+  BoxTree tree_;
 };
 
 }  // namespace conchoid

@@ -2,29 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/circle_points.hpp"
+#include "conchoid/mesh/place.hpp"
 
 namespace conchoid {
 namespace {
-
-/// Hands out one node per position: parts that meet share their nodes when they compute them by the same
-/// formula.
-class NodeWelder {
- public:
-  explicit NodeWelder(TriMesh& mesh) : mesh_(mesh) {}
-  NodeId operator()(const Vec3& x) {
-    const auto [found, inserted] = ids_.try_emplace({x.x() + 0.0, x.y() + 0.0, x.z() + 0.0}, NodeId());
-    if (inserted) found->second = mesh_.positions.add(x + Vec3::Zero());  // + 0: no negative zeros
-    return found->second;
-  }
-
- private:
-  TriMesh& mesh_;
-  std::map<std::array<double, 3>, NodeId> ids_;
-};
 
 /// In-plane coordinates (p, q) on the side of a box across `axis`, so that (p, q, axis) is right-handed.
 Vec3 on_side(int axis, double height, double p, double q) {

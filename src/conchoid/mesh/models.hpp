@@ -17,18 +17,15 @@ struct BodyModel {
 
 /// The built-in bodies, in metres, centred at the origin:
 ///   cube             edge 1, 120 triangles, its own image in the three coordinate planes and when x, y, z
-///   are exchanged in
-///                    cyclic order; regions x- x+ y- y+ z- z+
+///                    are exchanged in cyclic order; regions x- x+ y- y+ z- z+
 ///   cylinder         diameter 1, height 1, axis z, 192 triangles, its own image in the coordinate planes;
 ///                    regions top bottom side
 ///   bar              0.2 × 0.04 × 0.05 (length x, width y, height z), V-notch 14 mm wide and 10 mm deep
-///   across the middle
-///                    of the bottom, 416 triangles, its own image in x = 0 and y = 0; regions support-left
-///                    support-right (strips on the bottom, 12.5 to 25 mm from the ends), load (25 mm in the
+///                    across the middle of the bottom, 416 triangles, its own image in x = 0 and y = 0;
+///                    regions support-left support-right (strips on the bottom, 12.5 to 25 mm from the ends), load (25 mm in the
 ///                    middle of the top), notch, bottom, top (the rest of them), x- x+ y- y+
 ///   edge-crack-cube  edge 1, 192 triangles, regions as the cube; crack: the plane z = 0 from the face x-
-///   inward to its
-///                    straight front at x = −0.2, normal z, 116 triangles. Mouth: its edges on x-, y- and y+
+///                    inward to its straight front at x = −0.2, normal z, 116 triangles. Mouth: its edges on x-, y- and y+
 ///   infinite         no surface
 /// Throws InputError for any other name.
 BodyModel built_in_model(const std::string& name);

@@ -21,4 +21,10 @@ IdVector<NodeId, NodeId> first_at_place(const TriMesh& mesh) {
   return first;
 }
 
+NodeId NodeWelder::operator()(const Vec3& x) {
+  const auto [found, is_new] = nodes_.try_emplace(place(x), NodeId());
+  if (is_new) found->second = mesh_.positions.add(x + Vec3::Zero());  // + 0: no negative zeros
+  return found->second;
+}
+
 }  // namespace conchoid

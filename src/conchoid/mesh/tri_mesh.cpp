@@ -1,7 +1,8 @@
 #include "conchoid/mesh/tri_mesh.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "conchoid/core/union_find.hpp"
 
 namespace conchoid {
 
@@ -72,22 +73,14 @@ IdVector<TriId, std::array<TriId, 3>> triangle_neighbours(const TriMesh& mesh) {
 }
 
 std::vector<int> connected_parts(const TriMesh& mesh) {
-  std::vector<std::size_t> parent(mesh.node_count());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  UnionFind parts(mesh.node_count());
   for (const auto& c : mesh.corners)
-    for (int k = 1; k < 3; ++k) {
-      const std::size_t a = root(c[0].index()), b = root(c[k].index());
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::size_t k = 1; k < 3; ++k)
+      parts.join(c[0].index(), c[k].index());
   std::vector<int> part(mesh.node_count());
   int count = 0;
   for (std::size_t i = 0; i < part.size(); ++i)
-    part[i] = root(i) == i ? count++ : part[root(i)];
+    part[i] = parts.root(i) == i ? count++ : part[parts.root(i)];
   return part;
 }
 

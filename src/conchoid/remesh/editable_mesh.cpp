@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/box.hpp"
 
 namespace conchoid {
 namespace {
@@ -13,10 +14,6 @@ constexpr double flattest = 0.02;      // height over longest edge that a step m
 
 bool contains(const std::vector<TriId>& ids, TriId t) {
   return std::find(ids.begin(), ids.end(), t) != ids.end();
-}
-
-bool overlap(const Box& a, const Box& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
 }  // namespace
@@ -44,8 +41,7 @@ EditableMesh::EditableMesh(const TriMesh& mesh, double cell)
 }
 
 Triangle EditableMesh::triangle(TriId t) const {
-  const auto& c = corners_[t];
-  return {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
+  return triangle(corners_[t]);
 }
 
 std::vector<NodeId> EditableMesh::neighbours(NodeId n) const {
@@ -184,7 +180,7 @@ bool EditableMesh::acceptable(const Change& change) {
   bool good = true;
   for (std::size_t i = 0; i < change.added.size() && good; ++i) {
     const auto& c = change.added[i];
-    const Triangle x = {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
+    const Triangle x = triangle(c);
     const Vec3 normal = area_vector2(x[0], x[1], x[2]);
     good = flatness(x) >= allowed_flatness && flatness(x) > 1e-6 &&
            normal.dot(change.references[i]) > most_turning * normal.norm() * change.references[i].norm();
@@ -198,10 +194,10 @@ bool EditableMesh::keeps_clear(const std::vector<std::array<NodeId, 3>>& added,
                                const std::vector<TriId>& removed) {
   std::vector<Box> boxes;
   for (const auto& corners : added)
-    boxes.push_back(box_of(corners));
+    boxes.push_back(box_of(triangle(corners)));
   Box all = boxes.front();
   for (const Box& box : boxes)
-    all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
+    all = united(all, box);
   for (std::size_t i = 0; i < added.size(); ++i)
     for (std::size_t j = i + 1; j < added.size(); ++j)
       if (overlap(boxes[i], boxes[j]) && triangles_intersect(positions_, added[i], added[j])) return false;
@@ -209,13 +205,13 @@ bool EditableMesh::keeps_clear(const std::vector<std::array<NodeId, 3>>& added,
   for (TriId t : removed)
     visited_[t] = query_;
   bool clear = true;
-  for_each_cell(all, [&](std::uint64_t cell) {
+  visit_cells(all, [&](const Cell& cell) {
     const auto found = grid_.find(cell);
     if (!clear || found == grid_.end()) return;
     for (TriId t : found->second) {
       if (visited_[t] == query_) continue;
       visited_[t] = query_;
-      const Box box = box_of(corners_[t]);
+      const Box box = box_of(triangle(t));
       if (!overlap(all, box)) continue;
       for (std::size_t i = 0; i < added.size(); ++i)
         if (overlap(boxes[i], box) && triangles_intersect(positions_, added[i], corners_[t])) {
@@ -227,30 +223,17 @@ bool EditableMesh::keeps_clear(const std::vector<std::array<NodeId, 3>>& added,
   return clear;
 }
 
-Box EditableMesh::box_of(const std::array<NodeId, 3>& c) const {
-  const Vec3 &p = positions_[c[0]], &q = positions_[c[1]], &r = positions_[c[2]];
-  return {p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)};
+Triangle EditableMesh::triangle(const std::array<NodeId, 3>& c) const {
+  return {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
 }
 
 template <class Visit>
-void EditableMesh::for_each_cell(const Box& box, const Visit& visit) const {
-  auto index = [&](double x, int axis) {
-    return static_cast<std::int64_t>(std::floor((x - origin_[axis]) / cell_)) + (std::int64_t{1} << 20);
-  };
-  std::array<std::int64_t, 3> low, high;
-  for (int k = 0; k < 3; ++k) {
-    low[static_cast<std::size_t>(k)] = index(box.low[k], k);
-    high[static_cast<std::size_t>(k)] = index(box.high[k], k);
-  }
-  for (std::int64_t i = low[0]; i <= high[0]; ++i)
-    for (std::int64_t j = low[1]; j <= high[1]; ++j)
-      for (std::int64_t k = low[2]; k <= high[2]; ++k)
-        visit((static_cast<std::uint64_t>(i) << 42) | (static_cast<std::uint64_t>(j) << 21) |
-              static_cast<std::uint64_t>(k));
+void EditableMesh::visit_cells(const Box& box, const Visit& visit) const {
+  for_each_cell(cell_of(box.low - origin_, cell_), cell_of(box.high - origin_, cell_), visit);
 }
 
 void EditableMesh::remove(TriId t) {
-  for_each_cell(box_of(corners_[t]), [&](std::uint64_t cell) { std::erase(grid_.at(cell), t); });
+  visit_cells(box_of(triangle(t)), [&](const Cell& cell) { std::erase(grid_.at(cell), t); });
   for (NodeId n : corners_[t])
     std::erase(stars_[n], t);
   corners_[t] = {};
@@ -262,7 +245,7 @@ TriId EditableMesh::add(const std::array<NodeId, 3>& corners) {
   visited_.push_back(0);
   for (NodeId n : corners)
     stars_[n].push_back(t);
-  for_each_cell(box_of(corners), [&](std::uint64_t cell) { grid_[cell].push_back(t); });
+  visit_cells(box_of(triangle(corners)), [&](const Cell& cell) { grid_[cell].push_back(t); });
   ++alive_count_;
   return t;
 }

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "conchoid/core/cells.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -64,9 +65,10 @@ class EditableMesh {
   bool keeps_clear(const std::vector<std::array<NodeId, 3>>& added, const std::vector<TriId>& removed);
   void remove(TriId t);
   TriId add(const std::array<NodeId, 3>& corners);
+  /// Calls visit(cell) for the cells of the grid that a box meets.
   template <class Visit>
-  void for_each_cell(const Box& box, const Visit& visit) const;
-  Box box_of(const std::array<NodeId, 3>& corners) const;
+  void visit_cells(const Box& box, const Visit& visit) const;
+  Triangle triangle(const std::array<NodeId, 3>& corners) const;
 
   IdVector<NodeId, Vec3> positions_;
   IdVector<TriId, std::array<NodeId, 3>> corners_;
@@ -75,7 +77,7 @@ class EditableMesh {
 
   double cell_;
   Vec3 origin_;
-  std::unordered_map<std::uint64_t, std::vector<TriId>> grid_;
+  std::unordered_map<Cell, std::vector<TriId>, CellHash> grid_;
   IdVector<TriId, std::uint32_t> visited_;  ///< query in which a triangle was last looked at
   std::uint32_t query_ = 0;
 };

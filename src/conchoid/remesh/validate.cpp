@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
@@ -139,25 +140,6 @@ IdVector<NodeId, std::vector<TriId>> stars(const TriMesh& mesh) {
   return star;
 }
 
-/// Disjoint sets of small integers.
-class Groups {
- public:
-  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t of(std::size_t i) {
-    while (parent_[i] != i)
-      i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t i, std::size_t j) {
-    i = of(i);
-    j = of(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 void check_nodes(const TriMesh& mesh, Defects& defects) {
   const auto star = stars(mesh);
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
@@ -168,7 +150,7 @@ void check_nodes(const TriMesh& mesh, Defects& defects) {
       continue;
     }
     // Triangles of the star that share an edge at the node are joined; one fan makes one group.
-    Groups groups(triangles.size());
+    UnionFind groups(triangles.size());
     std::map<NodeId, std::size_t> across;
     for (std::size_t i = 0; i < triangles.size(); ++i)
       for (NodeId other : mesh.corners[triangles[i]]) {
@@ -177,7 +159,7 @@ void check_nodes(const TriMesh& mesh, Defects& defects) {
         if (!inserted) groups.join(found->second, i);
       }
     for (std::size_t i = 0; i < triangles.size(); ++i)
-      if (groups.of(i) != 0) {
+      if (groups.root(i) != 0) {
         defects.add(DefectKind::pinched_node,
                     "node " + std::to_string(n) + " joins parts that touch only there (triangles " +
                         numbers<TriId>({triangles[0], triangles[i]}) + ")",
@@ -205,31 +187,23 @@ void check_intersections(const TriMesh& mesh, Defects& defects) {
                 "repair the self-intersections, or remesh", {s, t});
 }
 
-/// Connected closed parts of the surface.
+/// Connected closed parts of the surface, in the order of their first triangles.
 std::vector<TriMesh> components(const TriMesh& mesh, std::vector<TriId>& first_triangles) {
-  Groups groups(mesh.node_count());
-  for (const auto& c : mesh.corners) {
-    groups.join(c[0].index(), c[1].index());
-    groups.join(c[1].index(), c[2].index());
-  }
-  std::map<std::size_t, std::size_t> part_of;
+  const std::vector<int> part_of_node = connected_parts(mesh);
+  std::map<int, std::size_t> place;
   std::vector<TriMesh> parts;
-  std::vector<std::map<NodeId, NodeId>> ids;
+  IdVector<NodeId, NodeId> ids(mesh.node_count());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto [found, inserted] =
-        part_of.try_emplace(groups.of(mesh.corners[TriId(t)][0].index()), parts.size());
-    if (inserted) {
+    Corners corners = mesh.corners[TriId(t)];
+    const auto [found, is_new] = place.try_emplace(part_of_node[corners[0].index()], parts.size());
+    if (is_new) {
       parts.emplace_back();
-      ids.emplace_back();
       first_triangles.push_back(TriId(t));
     }
     TriMesh& part = parts[found->second];
-    std::array<NodeId, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const NodeId n = mesh.corners[TriId(t)][k];
-      const auto [id, is_new] = ids[found->second].try_emplace(n, NodeId(part.node_count()));
-      if (is_new) part.positions.push_back(mesh.positions[n]);
-      corners[k] = id->second;
+    for (NodeId& n : corners) {
+      if (!ids[n].valid()) ids[n] = part.positions.add(mesh.positions[n]);
+      n = ids[n];
     }
     part.corners.push_back(corners);
   }

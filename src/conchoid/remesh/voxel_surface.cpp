@@ -17,7 +17,6 @@ constexpr std::size_t margin = 2;  // lattice points outside of the box, on ever
 constexpr std::array<double, 3> offset = {0.37, 0.41, 0.43};
 
 // --- inside
-// -------------------------------------------------------------------------------------------------
 
 /// Where an edge passes the line y = const of the xy-plane. From the edge alone, whichever triangle asks.
 struct EdgePassage {
@@ -108,7 +107,6 @@ void fill_line(InsideLattice& lattice, std::size_t i, std::size_t j, std::vector
 }
 
 // --- boundary
-// -----------------------------------------------------------------------------------------------
 
 /// Corner of a cube: bit 0 for x, 1 for y, 2 for z.
 using Corner = unsigned;

@@ -10,11 +10,6 @@ SifSettings sif_settings(const RunSpec& run) {
   return s;
 }
 
-BemOpening::BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
-                       const BemSettings& bem)
-    : BemOpening(make_body_operator(setup.surface, setup.data, m, bem),
-                 load_case(setup.surface, setup.data, setup.ambient), sif) {}
-
 BemOpening::BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif)
     : body_(std::move(body), std::move(load)), m_(body_.body().material()), sif_(sif) {}
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conchoid/bem/row_store.hpp"
+#include "conchoid/sim/fracture.hpp"
 
 namespace conchoid {
 
@@ -12,7 +13,7 @@ namespace conchoid {
 /// frame's enrichment functions added to the system, one file resume/frame_0001.rows … per frame, each whole or not
 /// there. Integrating these rows is what takes the time; a run that goes on computes everything else again
 /// and comes to the same bits.
-class Checkpoint : public RowStore {
+class Checkpoint : public RowStore, public FractureObserver {
  public:
   enum class Earlier { remove, keep };
   /// @param folder    of the run; nothing is written before the first finish()
@@ -24,9 +25,9 @@ class Checkpoint : public RowStore {
   /// Frames that were complete when this run began.
   int frames() const { return frames_; }
   /// Rows that follow belong to this frame.
-  void begin(int frame);
+  void on_frame(const Fracture&, int frame) override { begin(frame); }
   /// The frame is complete. Throws ComputationError on a full disk.
-  void finish(int frame);
+  void on_step(const Fracture&, const StepReport& step) override { finish(step.frame); }
   /// Removes all of it: the run has ended by itself.
   void remove();
 
@@ -38,6 +39,8 @@ class Checkpoint : public RowStore {
     std::string name;
     std::vector<EnrichmentRows> rows;
   };
+  void begin(int frame);
+  void finish(int frame);
   std::filesystem::path file(int frame) const;
   std::vector<Record> read(int frame) const;
   void remove_from(int frame);

@@ -50,16 +50,20 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
       for (std::size_t i = 0; i < moved.node_count(); ++i)
         moved.positions[NodeId(i)] += shift * crack_edge * normals[NodeId(i)];
     }
-    CutComplex cut = corefine(surface, moved, {kMouthMerge});
-    const double piece = worst_piece(cut);
-    if (piece > best_piece) {
-      best = std::move(cut);
-      best_piece = piece;
+    try {
+      CutComplex cut = corefine(surface, moved, {kMouthMerge});
+      const double piece = worst_piece(cut);
+      if (piece > best_piece) {
+        best = std::move(cut);
+        best_piece = piece;
+      }
+    } catch (const ComputationError&) {  // mouth curves that cannot be told apart: the next one may do
+      continue;
     }
     if (best_piece > kSliver) return best;
   }
   if (!(best_piece > kNothing))
-    throw ComputationError(
+    throw SingularSystem(
         "the crack runs along the surface mesh so closely that no boundary elements fit between; change "
         "resolution.crack or remesh the body");
   return best;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "conchoid/learn/sample.hpp"
+#include "conchoid/learn/features.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/scene.hpp"
 
@@ -23,6 +23,8 @@ class FrontHistory {
   /// The sample of a point whose correlation node was on the front in the frame before; its label is left at
   /// zero.
   std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const;
+  /// Throws InputError that names them if the feature set looks at quantities that sample() leaves at zero.
+  static void require_recorded(FeatureSet set);
   /// What is remembered of a node.
   struct Entry {
     FrontFrame frame;
@@ -31,7 +33,7 @@ class FrontHistory {
     int seen;         ///< frame of the sheet
   };
   const Entry* find(NodeId node) const;
-  /// Remembers the points as they are now. @param openings  in the order of crack.points
+  /// Remembers the points as they are now, but for those of which nothing is known. @param openings  in the order of crack.points
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings);
 
  private:

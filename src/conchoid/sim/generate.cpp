@@ -6,7 +6,9 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run.hpp"
 
 namespace conchoid {
@@ -30,7 +32,8 @@ DatabaseHeader make_header(const DatabaseSpec& spec, const GenerateOptions& opti
 
 }  // namespace
 
-GeneratedRun generate_run(const DatabaseSpec& spec, int run) {
+GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
+                          int run) {
   const auto start = std::chrono::steady_clock::now();
   const DrawnLoad load = draw_load(spec, run);
   GeneratedRun out;
@@ -42,19 +45,21 @@ GeneratedRun generate_run(const DatabaseSpec& spec, int run) {
   record.alpha = load.slope;
   record.beta = load.rotation;
   try {
-    RunOptions quiet;
-    quiet.fragments = quiet.progress = false;
-    RunResult result = run_scene(loaded_scene(spec, load), quiet);
-    if (result.document.stop == "interrupted") throw Interrupted("interrupted");
-    record.frames = result.document.frames;
-    record.stop = result.document.stop;
-    double resolution = 0;
-    for (const RunSetting& s : result.document.settings)
-      if (s.name == "resolution.crack") resolution = std::get<double>(s.value);
-    record.reason = exclusion_reason({record.alpha, record.frames, record.stop != "frame-limit",
-                                      result.cracks, result.largest_growth, resolution},
-                                     spec.exclusion);
-    out.samples = std::move(result.samples);
+    const Scene scene = loaded_scene(spec, load);
+    Fracture fracture(body, load_of(scene, *body), scene.run);
+    GrowthRecorder growth;
+    SampleRecorder samples;
+    fracture.add_observer(growth);
+    fracture.add_observer(samples);
+    const StopReason stop = run_frames(fracture, scene.run.frames);
+    if (stop == StopReason::interrupted) throw Interrupted("interrupted");
+    record.frames = fracture.frame();
+    record.stop = name(stop);
+    record.reason =
+        exclusion_reason({record.alpha, record.frames, stop != StopReason::frame_limit,
+                          static_cast<std::int32_t>(fracture.cracks()), growth.largest(), body->crack_edge},
+                         spec.exclusion);
+    out.samples = samples.take();
     for (std::int32_t& id : out.samples.run())
       id = run;
   } catch (const ComputationError& error) {
@@ -68,13 +73,14 @@ GeneratedRun generate_run(const DatabaseSpec& spec, int run) {
 
 void generate_database(const DatabaseSpec& spec, const GenerateOptions& options) {
   DatabaseWriter writer(options.out, make_header(spec, options), options.resume);
+  const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
   std::vector<int> missing;
   for (int run = options.shard - 1; run < spec.runs; run += options.shards)
     if (!writer.has(run)) missing.push_back(run);
   Progress progress("runs", missing.size());
-  tbb::parallel_for_each(missing.begin(), missing.end(), [&](int run) {
+  parallel_for(missing.size(), 1, [&](std::size_t i, std::size_t) {
     throw_if_interrupted();
-    const GeneratedRun generated = generate_run(spec, run);
+    const GeneratedRun generated = generate_run(spec, body, missing[i]);
     writer.add(generated.record, generated.samples);
     progress.advance();
   });

@@ -4,6 +4,7 @@
 
 #include "conchoid/learn/database.hpp"
 #include "conchoid/sim/database_spec.hpp"
+#include "conchoid/sim/prepared_body.hpp"
 
 namespace conchoid {
 
@@ -20,10 +21,11 @@ struct GenerateOptions {
 void generate_database(const DatabaseSpec& spec, const GenerateOptions& options);
 
 /// One run: its record, without samples if it is excluded by an error.
+/// @param body  of the specification's scene, prepared once for all runs
 struct GeneratedRun {
   RunRecord record;
   SampleSet samples;
 };
-GeneratedRun generate_run(const DatabaseSpec& spec, int run);
+GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body, int run);
 
 }  // namespace conchoid

@@ -6,9 +6,11 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
-#include "conchoid/sim/body_setup.hpp"
+#include "conchoid/crack/law/growth_law.hpp"
+#include "conchoid/learn/opening_predictor.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"
+#include "conchoid/sim/prepared_body.hpp"
 
 namespace conchoid {
 
@@ -21,6 +23,7 @@ struct FrontOpening {
   Vec3 intensity = Vec3::Zero();       ///< K that moves the front [Pa√m]
   Vec3 node_intensity = Vec3::Zero();  ///< K from this opening alone (S3): what features are made of [Pa√m]
   bool in_range = true;                ///< false: a predictor was asked beyond its training
+  bool known = true;                   ///< false: nothing tells K here, which is zero; the point stays
 };
 
 /// The socket: where the crack opening comes from.
@@ -35,9 +38,6 @@ class OpeningSource {
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
 class BemOpening : public OpeningSource {
  public:
-  BemOpening(const BodySetup& setup, const ElasticConstants& m, const SifSettings& sif,
-             const BemSettings& bem);
-  /// Of a body that others may share.
   BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
@@ -60,38 +60,29 @@ class BemOpening : public OpeningSource {
 /// correlation node had when it was on the front. Linear in the number of front points.
 class PredictedOpening : public OpeningSource {
  public:
-  PredictedOpening(BemOpening& first, const MaterialSpec& material, const BodySetup& setup,
-                   const SifSettings& sif)
-      : first_(first), sif_(sif), history_(material, setup.toughness, setup.crack_edge) {}
+  /// @param predictor  a regressor or a closed form; must outlive the source, as `first` must
+  PredictedOpening(BemOpening& first, const OpeningPredictor& predictor, const MaterialSpec& material,
+                   const PreparedBody& body, const SifSettings& sif)
+      : first_(first),
+        predictor_(predictor),
+        sif_(sif),
+        history_(material, body.toughness, body.crack_edge) {}
+  std::string name() const override { return std::string(predictor_.name()); }
   std::vector<FrontOpening> open(const CrackState& crack) override;
 
- protected:
-  /// Openings [m] in the front frames of the frame before.
-  struct Guess {
-    Vec3 opening;
-    bool in_range;
-  };
-  virtual std::vector<Guess> predict(const SampleSet& samples) = 0;
-
  private:
+  std::vector<FrontOpening> predict(const CrackState& crack) const;
+
   BemOpening& first_;
+  const OpeningPredictor& predictor_;
   SifSettings sif_;
   FrontHistory history_;
 };
 
 /// Where nothing can be solved any more, as a piece hangs by a ligament too thin for the elements: each point
 /// goes straight ahead with the K_eff that its correlation node (or itself, if it stayed) had when last
-/// solved. Points without one take the mean of the nearest on their front that have one.
+/// solved. Points without one take the mean of the nearest on their connected front that have one (fill_gaps).
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
-                                           const ElasticConstants& m);
-
-/// "K stays as it is": the closed-form inverse of the displacement correlation. No training.
-std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   const BodySetup& setup, const SifSettings& sif);
-/// A regression forest (learn/forest.hpp), which must outlive the source.
-class RegressionForest;
-std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, const BodySetup& setup,
-                                                   const SifSettings& sif);
+                                           const GrowthLaw& law);
 
 }  // namespace conchoid

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/surface/dress_fragments.hpp"
+#include "conchoid/surface/fragment_attributes.hpp"
 
 namespace conchoid {
 

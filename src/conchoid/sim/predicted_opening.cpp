@@ -1,5 +1,4 @@
-#include "conchoid/crack/law/criterion.hpp"
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/sim/front_gaps.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -9,126 +8,65 @@ Vec3 in_frame(const FrontFrame& f, const Vec3& v) {
   return {v.dot(f.e1), v.dot(f.e2), v.dot(f.e3)};
 }
 
-// Points without a prediction of their own (their correlation node was not on the front) take the mean K of
-// the nearest points of the same front that have one.
-void fill_gaps(const CrackState& crack, const std::vector<char>& known, std::vector<FrontOpening>& out) {
-  const std::size_t n = out.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (known[i]) continue;
-    Vec3 sum = Vec3::Zero();
-    int count = 0;
-    for (std::size_t step = 1; step < n && count == 0; ++step)
-      for (std::size_t j : {i + step, i + n - step}) {
-        const std::size_t k = j % n;
-        if (!known[k] || crack.points[k].front != crack.points[i].front) continue;
-        sum += out[k].intensity;
-        ++count;
-      }
-    if (count > 0) out[i].intensity = out[i].node_intensity = sum / count;
-  }
+Vec3 in_world(const FrontFrame& f, const Vec3& v) {
+  return v[0] * f.e1 + v[1] * f.e2 + v[2] * f.e3;
 }
-
-class SteadyOpening : public PredictedOpening {
- public:
-  using PredictedOpening::PredictedOpening;
-  std::string name() const override { return "steady"; }
-
- protected:
-  std::vector<Guess> predict(const SampleSet& samples) override {
-    std::vector<Guess> out;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      out.push_back({steady_opening(samples[i]), true});
-    return out;
-  }
-};
-
-class ForestOpening : public PredictedOpening {
- public:
-  ForestOpening(BemOpening& first, const RegressionForest& forest, const MaterialSpec& material,
-                const BodySetup& setup, const SifSettings& sif)
-      : PredictedOpening(first, material, setup, sif), forest_(forest) {}
-  std::string name() const override { return "forest"; }
-
- protected:
-  std::vector<Guess> predict(const SampleSet& samples) override {
-    std::vector<Guess> out;
-    for (const OpeningPrediction& p : forest_.predict_openings(samples))
-      out.push_back({p.opening, p.in_range});
-    return out;
-  }
-
- private:
-  const RegressionForest& forest_;
-};
 
 }  // namespace
 
-std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
-  std::vector<FrontOpening> out;
-  if (crack.sheet.frame == 0) {
-    out = first_.open(crack);
-    history_.remember(crack, out);
-    return out;
-  }
-  out.resize(crack.points.size());
-  std::vector<char> known(out.size(), 0);
+std::vector<FrontOpening> PredictedOpening::predict(const CrackState& crack) const {
+  std::vector<FrontOpening> out(crack.points.size());
   SampleSet samples;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     if (const FrontHistory::Entry* still = history_.find(point.node)) {  // it did not move: nothing changes
       out[i].intensity = out[i].node_intensity = still->intensity;
-      known[i] = 1;
     } else if (const auto sample = history_.sample(crack, point)) {
       samples.add(*sample);
       asked.push_back(i);
+    } else {
+      out[i].known = false;
     }
   }
-  const std::vector<Guess> guesses = samples.empty() ? std::vector<Guess>{} : predict(samples);
-  for (std::size_t g = 0; g < guesses.size(); ++g) {
-    const std::size_t i = asked[g];
-    const FrontPoint& point = crack.points[i];
-    const FrontFrame& before = history_.find(point.correlation)->frame;
-    const Vec3& du = guesses[g].opening;
-    FrontOpening& o = out[i];
-    o.opening = du[0] * before.e1 + du[1] * before.e2 + du[2] * before.e3;
-    const Sample s = samples[g];
-    const ElasticConstants m{s.youngs_modulus, s.poisson_ratio};
-    o.intensity = o.node_intensity =
-        stress_intensity(in_frame(point.frame, o.opening), point.distance, m, sif_.convention);
-    o.in_range = guesses[g].in_range;
-    known[i] = 1;
+  if (samples.empty()) return out;
+  const std::vector<OpeningPrediction> predictions = predictor_.predict_openings(samples);
+  for (std::size_t p = 0; p < predictions.size(); ++p) {
+    const FrontPoint& point = crack.points[asked[p]];
+    const Sample s = samples[p];
+    FrontOpening& o = out[asked[p]];
+    o.opening = in_world(history_.find(point.correlation)->frame, predictions[p].opening);
+    o.intensity = o.node_intensity = stress_intensity(in_frame(point.frame, o.opening), point.distance,
+                                                      {s.youngs_modulus, s.poisson_ratio}, sif_.convention);
+    o.in_range = predictions[p].in_range;
   }
-  fill_gaps(crack, known, out);
+  return out;
+}
+
+std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
+  std::vector<FrontOpening> out;
+  if (crack.sheet.frame == 0) {
+    out = first_.open(crack);
+  } else {
+    out = predict(crack);
+    fill_gaps(point_chains(crack), out);
+  }
   history_.remember(crack, out);
   return out;
 }
 
 std::vector<FrontOpening> carried_openings(const CrackState& crack, const FrontHistory& history,
-                                           const ElasticConstants& m) {
+                                           const GrowthLaw& law) {
   std::vector<FrontOpening> out(crack.points.size());
-  std::vector<char> known(out.size(), 0);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontHistory::Entry* last = history.find(point.node);
     if (!last && point.correlation.valid()) last = history.find(point.correlation);
-    if (!last) continue;
-    known[i] = 1;
-    out[i].intensity = out[i].node_intensity = effective_intensity(last->intensity, m) * Vec3::UnitX();
+    out[i].known = last != nullptr;
+    if (last) out[i].intensity = out[i].node_intensity = law.drive(last->intensity) * Vec3::UnitX();
   }
-  fill_gaps(crack, known, out);
+  fill_gaps(point_chains(crack), out);
   return out;
-}
-
-std::unique_ptr<OpeningSource> make_steady_opening(BemOpening& first, const MaterialSpec& material,
-                                                   const BodySetup& setup, const SifSettings& sif) {
-  return std::make_unique<SteadyOpening>(first, material, setup, sif);
-}
-
-std::unique_ptr<OpeningSource> make_forest_opening(BemOpening& first, const RegressionForest& forest,
-                                                   const MaterialSpec& material, const BodySetup& setup,
-                                                   const SifSettings& sif) {
-  return std::make_unique<ForestOpening>(first, forest, material, setup, sif);
 }
 
 }  // namespace conchoid

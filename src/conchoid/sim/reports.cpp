@@ -5,21 +5,28 @@
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
 namespace {
 
-CrackState initial_crack(const BodySetup& setup) {
+CrackState initial_crack(const PreparedBody& body) {
   CrackState crack;
-  for (const TriMesh& sheet : setup.cracks)
+  for (const TriMesh& sheet : body.cracks)
     append_part(crack.sheet, sheet);
-  update_crack(crack, setup.surface, setup.crack_edge);
+  update_crack(crack, body.surface, body.crack_edge);
   return crack;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void solve(BemOpening& bem, const CrackState& crack) {
+  bem.solve(crack.cut);
+  if (const ContactReport& contact = bem.body().contact(); !contact.converged)
+    warning(contact_warning(contact));
 }
 
 double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening) {
@@ -34,13 +41,13 @@ double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening
 
 SifReport compute_sifs(const Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
-  const BodySetup setup = set_up_body(scene);
-  if (setup.cracks.empty())
+  const PreparedBody body = prepare(scene);
+  if (body.cracks.empty())
     throw InputError(scene.file + ": there is no crack to take stress intensity factors of; add a [[crack]]");
   const SifSettings sif = sif_settings(scene.run);
-  BemOpening bem(setup, scene.material.elastic(), sif, {scene.run.quadrature_tolerance, scene.run.contact});
-  const CrackState crack = initial_crack(setup);
-  bem.solve(crack.cut);
+  BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
+  const CrackState crack = initial_crack(body);
+  solve(bem, crack);
   SifReport report;
   for (const Front& front : crack.fronts) {
     const auto K =
@@ -48,7 +55,7 @@ SifReport compute_sifs(const Scene& scene) {
     report.fronts.push_back({front.closed, {}});
     for (std::size_t i = 0; i < K.size(); ++i)
       report.fronts.back().nodes.push_back(
-          {crack.trimmed.positions[front.nodes[i]] + setup.origin, K[i], front.frames[i]});
+          {crack.trimmed.positions[front.nodes[i]] + body.origin, K[i], front.frames[i]});
   }
   report.triangles = crack.trimmed.triangle_count();
   report.opened_volume = opened_volume(crack.trimmed, bem.body().opening());
@@ -61,17 +68,16 @@ StressReport compute_stress(const Scene& scene) {
   if (scene.body.infinite())
     throw InputError(scene.body.where +
                      ": the infinite body has no surface to show stress on; use a body with one");
-  const BodySetup setup = set_up_body(scene);
-  BemOpening bem(setup, scene.material.elastic(), {}, {scene.run.quadrature_tolerance, scene.run.contact});
-  bem.solve(initial_crack(setup).cut);
-  const IdVector<TriId, int> region = region_of_triangles(setup.surface, setup.regions);
+  const PreparedBody body = prepare(scene);
+  BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
+  solve(bem, initial_crack(body));
+  const IdVector<TriId, int> region = region_of_triangles(body.surface, body.regions);
   StressReport report;
   const std::vector<Mat3> stress = bem.body().surface_stress();
   for (std::size_t t = 0; t < stress.size(); ++t) {
     const Vec3 principal = principal_stress(stress[t]).value;
-    report.triangles.push_back(
-        {centroid(setup.surface, TriId(t)) + setup.origin, principal,
-         region[TriId(t)] >= 0 ? setup.regions[region[TriId(t)]].name : std::string()});
+    report.triangles.push_back({centroid(body.surface, TriId(t)) + body.origin, principal,
+                                region[TriId(t)] >= 0 ? body.regions[region[TriId(t)]].name : std::string()});
     report.max_principal = t == 0 ? principal[0] : std::max(report.max_principal, principal[0]);
   }
   report.seconds = seconds_since(start);

@@ -3,126 +3,27 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
-#include <numbers>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
-#include "conchoid/intersect/unfold.hpp"
-#include "conchoid/mesh/crack_meshes.hpp"
-#include "conchoid/sim/frame_loop.hpp"
+#include "conchoid/core/progress.hpp"
+#include "conchoid/sim/checkpoint.hpp"
+#include "conchoid/sim/methods.hpp"
+#include "conchoid/sim/pieces.hpp"
+#include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run_identity.hpp"
-#include "conchoid/surface/open_slits.hpp"
 
 namespace conchoid {
 namespace {
-
-constexpr double kRunOut =
-    0.5;  // × r̄: how far a crack that separates the coarse body is run on through the detailed one
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void move_back(TriMesh& mesh, const Vec3& origin) {
-  for (Vec3& x : mesh.positions)
-    x += origin;
-}
-
-TriMesh join(const std::vector<TriMesh>& sheets) {
-  TriMesh all;
-  for (const TriMesh& sheet : sheets) {
-    const std::size_t first = all.node_count();
-    all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
-    for (const auto& c : sheet.corners)
-      all.corners.push_back(
-          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
-  }
-  return all;
-}
-
-// Nodes that no triangle uses are dropped.
-TriMesh used_part(const CutComplex& cut) {
-  TriMesh out;
-  std::vector<NodeId> moved(cut.positions.size());
-  for (const auto& c : cut.sheet) {
-    std::array<NodeId, 3> corners;
-    for (int k = 0; k < 3; ++k) {
-      NodeId& to = moved[c[k].index()];
-      if (!to.valid()) to = out.positions.add(cut.positions[c[k]]);
-      corners[k] = to;
-    }
-    out.corners.push_back(corners);
-  }
-  return out;
-}
-
-std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
-  for (TriMesh& sheet : sheets)
-    sheet = unfolded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
-  return sheets;
-}
-
-DressSettings dress_settings(const Scene& scene, const BodySetup& setup) {
-  DressSettings settings;
-  settings.projection = scene.output.projection;
-  settings.texture_size = scene.output.texture_size.value_or(std::cbrt(enclosed_volume(setup.detailed)));
-  settings.crease_angle = scene.output.crease_angle * std::numbers::pi / 180;
-  return settings;
-}
-
-// Far below what can be seen, far above what single precision rounds away.
-constexpr double kSlitWidth = 2e-4;  // of the crack surface's edge length
-
-// The detailed body in pieces, and the crack surface inside it.
-void cut_body(const Scene& scene, const FrameLoop& loop, bool fragments, RunResult& result) {
-  const BodySetup& setup = loop.setup();
-  std::vector<TriMesh> sheets = loop.fine_sheets();
-  if (setup.infinite()) {
-    result.crack = join(sheets);
-    return;
-  }
-  const FragmentSettings settings{scene.material.density, scene.run.smallest_fragment,
-                                  static_cast<std::size_t>(scene.run.max_fragments)};
-  try {
-    if (fragments) result.fragments = cut_into_fragments(setup.detailed, sheets, settings);
-    if (result.document.stop == "separated" && fragments && settings.maximum_count != 1 &&
-        result.fragments.size() < 2) {
-      std::vector<TriMesh> longer = run_on(sheets, kRunOut * setup.crack_edge);
-      std::vector<Fragment> pieces = cut_into_fragments(setup.detailed, longer, settings);
-      if (pieces.size() > 1) {
-        sheets = std::move(longer);
-        result.fragments = std::move(pieces);
-      }
-    }
-    result.crack = used_part(corefine(setup.detailed, join(sheets)));
-  } catch (const std::runtime_error&
-               error) {  // a crack surface folded over itself: the frames are still worth having
-    result.document.warnings.push_back(
-        fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
-                    "as swept, the body is left whole",
-                    error.what()));
-    warning(result.document.warnings.back());
-    result.crack = join(sheets);
-    if (fragments) result.fragments = cut_into_fragments(setup.detailed, {}, settings);
-  }
-  // The coarse crack may end a triangle short of where the fine one has cut through.
-  if (result.document.stop == "arrested" && result.fragments.size() > 1) result.document.stop = "separated";
-  result.document.contacts = fragment_contacts(result.fragments);
-  for (Fragment& f : result.fragments)
-    open_slits(f, kSlitWidth * setup.surface_edge);
-  dress_fragments(result.fragments, setup.detailed, setup.attributes, dress_settings(scene, setup));
-  for (Fragment& f : result.fragments) {
-    move_fragment(f, setup.origin, setup.detailed, setup.scene_positions);
-    result.document.fragments.push_back(fragment_record(f));
-  }
-  move_back(result.crack, setup.origin);
-}
-
 std::string result_hash(const RunResult& result) {
   ContentHash hash;
-  hash.add(result.document.stop);
+  hash.add(name(result.document.stop));
   add_mesh(hash, result.crack);
   for (const Fragment& f : result.fragments)
     add_mesh(hash, f.mesh);
@@ -134,26 +35,31 @@ std::string result_hash(const RunResult& result) {
   return hash.hex();
 }
 
-void describe(const Scene& scene, const FrameLoop& loop, const RunOptions& options, RunDocument& doc) {
+// What the run is, before it begins.
+RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOptions& options) {
+  RunDocument doc;
   doc.scene_file = scene.file;
   doc.scene_text = scene.text;
-  doc.method = name(options.method);
-  const BodySetup& setup = loop.setup();
+  doc.method = options.method;
   doc.settings = {
-      {"resolution.crack", setup.crack_edge},
-      {"resolution.surface", setup.surface_edge},
+      {"resolution.crack", body.crack_edge},
+      {"resolution.surface", body.surface_edge},
       {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
       {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
       {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
       {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
       {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
-  if (setup.infinite()) return;
-  Box box = bounding_box(setup.detailed);
-  box.low += setup.origin;
-  box.high += setup.origin;
+  doc.initial_triangles = body.surface.triangle_count();
+  for (const TriMesh& crack : body.cracks)
+    doc.initial_triangles += crack.triangle_count();
+  if (body.infinite()) return doc;
+  Box box = bounding_box(body.detailed);
+  box.low += body.origin;
+  box.high += body.origin;
   doc.body = box;
-  doc.body_volume = enclosed_volume(setup.detailed);
+  doc.body_volume = enclosed_volume(body.detailed);
+  return doc;
 }
 
 // Where a run is written.
@@ -163,20 +69,16 @@ struct Places {
 };
 
 // A checkpoint is read before anything in the folder is touched.
-Places open_places(const Scene& scene, const BodySetup& setup, const RunOptions& options) {
+Places open_places(const Fracture& fracture, const Scene& scene, const RunOptions& options) {
   Places places;
   if (!options.folder) return places;
-  const std::string identity = run_identity(scene, setup, options);
+  const std::string identity = run_identity(scene, fracture.body(), fracture.load(), options);
   if (options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::keep);
   places.folder.emplace(*options.folder);
   if (!options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::remove);
   if (places.checkpoint->frames() > 0)
     message(fmt::format("{}: goes on after frame {}", options.folder->string(), places.checkpoint->frames()));
   return places;
-}
-
-bool may_go_on(const RunDocument& document) {
-  return document.stop == "frame-limit" || document.stop == "interrupted";
 }
 
 void write_results(const RunResult& result, const FragmentFormats& formats, double voxel, RunFolder& folder) {
@@ -187,45 +89,108 @@ void write_results(const RunResult& result, const FragmentFormats& formats, doub
   folder.write_run_json(result.document);
 }
 
+void add_warnings(const std::vector<std::string>& warnings, RunDocument& doc) {
+  for (const std::string& text : warnings) {
+    doc.warnings.push_back(text);
+    warning(text);
+  }
+}
+
+// A line of the report per frame, and the sums over them.
+class ReportWriter : public FractureObserver {
+ public:
+  explicit ReportWriter(RunDocument& document) : doc_(document) {}
+  void on_step(const Fracture& fracture, const StepReport& step) override {
+    doc_.opening_seconds += step.start_seconds + step.opening_seconds;
+    doc_.fracture_seconds += step.fracture_seconds;
+    doc_.frames = fracture.frame();
+    add_warnings(step.warnings, doc_);
+    if (step.frame == 0 || step.stop == StopReason::singular) return;
+    FrameRecord record;
+    record.frame = step.frame;
+    record.source = step.source;
+    record.crack_triangles = step.crack_triangles;
+    record.front_nodes = step.front_points;
+    record.max_K_eff = step.largest_intensity;
+    record.opening_seconds = step.opening_seconds;
+    record.fracture_seconds = step.fracture_seconds;
+    record.other_seconds = step.other_seconds;
+    doc_.timings.push_back(record);
+  }
+
+ private:
+  RunDocument& doc_;
+};
+
+void cut(const Fracture& fracture, const Scene& scene, const RunOptions& options, RunResult& result) {
+  RunDocument& doc = result.document;
+  if (!options.fragments) {
+    result.crack = crack_surface(fracture);
+    return;
+  }
+  Pieces pieces = cut_into_pieces(fracture, scene.output);
+  add_warnings(pieces.warnings, doc);
+  result.crack = std::move(pieces.crack);
+  result.fragments = std::move(pieces.fragments);
+  doc.contacts = std::move(pieces.contacts);
+  // The coarse crack may end a triangle short of where the fine one has cut through.
+  if (doc.stop == StopReason::arrested && result.fragments.size() > 1) doc.stop = StopReason::separated;
+  for (const Fragment& f : result.fragments)
+    doc.fragments.push_back(fragment_record(f));
+}
+
 }  // namespace
 
-Method method_from_name(const std::string& text) {
-  for (Method m : {Method::bem, Method::forest, Method::steady})
-    if (name(m) == text) return m;
-  throw InputError(fmt::format("method '{}' is not known; use bem, forest or steady", text));
-}
-
-std::string name(Method method) {
-  return method == Method::bem ? "bem" : method == Method::forest ? "forest" : "steady";
-}
-
 RunResult run_scene(const Scene& scene, const RunOptions& options) {
-  if (options.method == Method::forest && !options.forest)
-    throw InputError("method 'forest' needs a trained forest: --database FOREST");
+  return run_body(scene, scene_body(scene), options);
+}
+
+RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options) {
+  const OpeningMethod& method = checked_method(options.method, options.regressor);
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
   RunResult result;
-  RunDocument& doc = result.document;
-  FrameLoop loop(scene, options);
-  Places places = open_places(scene, loop.setup(), options);
-  if (places.checkpoint) doc.resumed_after = places.checkpoint->frames();
-  describe(scene, loop, options, doc);
-  const std::size_t body_triangles = loop.setup().surface.triangle_count();
-  std::size_t crack_triangles = 0;
-  for (const TriMesh& crack : loop.setup().cracks)
-    crack_triangles += crack.triangle_count();
-  doc.initial_triangles = body_triangles + crack_triangles;
-  loop.run(result, places.folder ? &*places.folder : nullptr,
-           places.checkpoint ? &*places.checkpoint : nullptr);
-  doc.final_triangles = body_triangles + loop.crack_triangles();
-  cut_body(scene, loop, options.fragments, result);
+  RunDocument& doc = result.document = describe(scene, *body, options);
+  Fracture fracture(body, load_of(scene, *body), scene.run, [&](BemOpening& bem) {
+    return method.make({bem, body->material, *body, sif_settings(scene.run), options.regressor});
+  });
+  Places places = open_places(fracture, scene, options);
+  std::optional<FrameWriter> frames;
+  if (places.checkpoint) {
+    doc.resumed_after = places.checkpoint->frames();
+    fracture.keep_rows(&*places.checkpoint);
+    frames.emplace(*places.folder, scene.output.exaggeration);
+    fracture.add_observer(*frames);
+    fracture.add_observer(*places.checkpoint);
+  }
+  FrontRecorder front;
+  GrowthRecorder growth;
+  SampleRecorder samples;
+  ReportWriter report(doc);
+  for (FractureObserver* observer :
+       std::initializer_list<FractureObserver*>{&front, &growth, &samples, &report})
+    fracture.add_observer(*observer);
+  const int limit = options.frames.value_or(scene.run.frames);
+  std::optional<Progress> progress;
+  if (options.progress) progress.emplace("frames", static_cast<std::size_t>(limit));
+  doc.stop = run_frames(fracture, limit, [&] {
+    if (progress) progress->advance();
+  });
+  progress.reset();
+  doc.final_triangles = body->surface.triangle_count() + fracture.crack().trimmed.triangle_count();
+  cut(fracture, scene, options, result);
+  result.front = front.take();
+  result.samples = samples.take();
+  result.cracks = static_cast<int>(fracture.cracks());
+  result.largest_growth = growth.largest();
   doc.hash = result_hash(result);
   doc.total_seconds = seconds_since(start);
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (places.folder) write_results(result, formats, loop.setup().surface_edge, *places.folder);
-  if (places.checkpoint && !may_go_on(doc)) places.checkpoint->remove();
+  if (places.folder) write_results(result, formats, body->surface_edge, *places.folder);
+  if (places.checkpoint && !may_go_on(doc.stop)) places.checkpoint->remove();
   return result;
 }
 

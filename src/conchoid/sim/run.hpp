@@ -8,21 +8,16 @@
 
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/sample.hpp"
+#include "conchoid/sim/body.hpp"
 #include "conchoid/sim/scene.hpp"
 
 namespace conchoid {
 
-class RegressionForest;
-
-/// Where the crack opening comes from.
-enum class Method { bem, forest, steady };
-/// "bem", "forest", "steady". Throws InputError for another name.
-Method method_from_name(const std::string& name);
-std::string name(Method method);
+class Regressor;
 
 struct RunOptions {
-  Method method = Method::bem;
-  const RegressionForest* forest = nullptr;         ///< for Method::forest
+  std::string method = "bem";                       ///< where the opening comes from: sim/methods.hpp
+  const Regressor* regressor = nullptr;             ///< for the methods that need one
   std::optional<int> frames;                        ///< in place of the scene's
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
@@ -43,12 +38,14 @@ struct RunResult {
 };
 
 /// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
-/// separated or the frame limit is reached; then cut the body. document.stop says which: "arrested",
-/// "separated", "frame-limit", "intact" (nothing cracked) "singular" (a later frame could not be solved,
-/// mostly because a piece hangs by a ligament too thin to resolve: what was computed is kept and a warning
-/// says so) or "interrupted" (Ctrl-C: what was computed is kept and written). Same scene, same bits: for
-/// every number of threads, with a folder or without, stopped and resumed or not. Throws InputError when what
-/// is to be resumed belongs to another scene, method or version.
+/// separated or the frame limit is reached; then cut the body. document.stop says which (io/outcome.hpp). Same
+/// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
+/// Throws InputError for an unknown method or a regressor that does not go with it, and when what is to be
+/// resumed belongs to another scene, method, regressor or version. For more than one load or one step at a time: Fracture (fracture.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
+
+/// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and
+/// further cracks are the scene's.
+RunResult run_body(const Scene& scene, Body body, const RunOptions& options);
 
 }  // namespace conchoid

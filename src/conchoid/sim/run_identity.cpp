@@ -1,27 +1,89 @@
 #include "conchoid/sim/run_identity.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor.hpp"
 
 namespace conchoid {
 namespace {
 
-// Other kinds of fields stand in the scene itself.
-void add_voxels(ContentHash& hash, const std::vector<FieldFactor>& factors) {
-  for (const FieldFactor& factor : factors)
-    if (const auto* voxels = std::get_if<Voxels>(&factor.kind)) {
-      const VoxelGrid& grid = *voxels->grid;
-      hash.add(grid.size);
-      hash.add(std::string_view(reinterpret_cast<const char*>(grid.values.data()),
-                                grid.values.size() * sizeof(float)));
-      hash.add(std::span<const double>(grid.to_index.data(), 9));
-      hash.add(std::span<const double>(grid.offset.data(), 3));
-    }
+void add(ContentHash& hash, const Vec3& v) {
+  hash.add(std::span<const double>(v.data(), 3));
+}
+void add(ContentHash& hash, const Mat3& m) {
+  hash.add(std::span<const double>(m.data(), 9));
+}
+
+void add(ContentHash& hash, const Layers& f) {
+  add(hash, f.direction);
+  hash.add(std::array{f.wavelength, f.amplitude, f.phase});
+}
+void add(ContentHash& hash, const Grains& f) {
+  add(hash, f.stretch);
+  hash.add(std::array{f.size, f.width, f.weakening, f.spread});
+  hash.add(f.seed);
+}
+void add(ContentHash& hash, const Noise& f) {
+  hash.add(std::array{f.wavelength, f.amplitude, static_cast<double>(f.octaves), f.gain});
+  hash.add(f.seed);
+}
+void add(ContentHash& hash, const Voxels& f) {
+  const VoxelGrid& grid = *f.grid;
+  hash.add(grid.size);
+  hash.add(std::string_view(reinterpret_cast<const char*>(grid.values.data()),
+                            grid.values.size() * sizeof(float)));
+  add(hash, grid.to_index);
+  add(hash, grid.offset);
+  hash.add(std::array{f.scale, f.outside == Outside::periodic ? 1.0 : 0.0});
+}
+
+void add(ContentHash& hash, const std::vector<FieldFactor>& factors) {
+  hash.add(static_cast<std::uint64_t>(factors.size()));
+  for (const FieldFactor& factor : factors) {
+    hash.add(static_cast<std::uint64_t>(factor.kind.index()));
+    std::visit([&](const auto& kind) { add(hash, kind); }, factor.kind);
+    hash.add(static_cast<std::uint64_t>(factor.placement.origin.has_value()));
+    add(hash, factor.placement.origin.value_or(Vec3::Zero()));
+    add(hash, factor.placement.axes);
+  }
+}
+
+void add(ContentHash& hash, const MaterialSpec& m) {
+  hash.add(std::array{m.youngs_modulus, m.poisson_ratio, m.density, m.strength, m.toughness,
+                      m.compressive_factor});
+  add(hash, m.toughness_field);
+  add(hash, m.strength_field);
+}
+
+void add(ContentHash& hash, const MaterialFrame& frame) {
+  add(hash, frame.turn);
+  add(hash, frame.shift);
+  add(hash, frame.center.value_or(Vec3::Zero()));
+}
+
+void add(ContentHash& hash, const LoadCase& load, const TriMesh& surface) {
+  hash.add(std::span<const Vec3>(load.traction));
+  hash.add(std::span<const Vec3>(load.displacement));
+  if (!load.ambient.stress) return;
+  add(hash, load.ambient.stress(Vec3::Zero()));
+  for (const Vec3& x : surface.positions)
+    add(hash, load.ambient.stress(x));
+}
+
+// How many frames are wanted and what becomes of the pieces is no part of it.
+void add(ContentHash& hash, const RunSpec& run) {
+  hash.add(static_cast<std::uint64_t>(run.max_cracks));
+  hash.add(run.seed);
+  for (const bool choice :
+       {run.inertia_relief, run.contact, run.published_compression, run.exact_rayleigh_speed,
+        run.sif == SifSource::one_point, run.sif_convention == OpeningConvention::half})
+    hash.add(static_cast<std::uint64_t>(choice));
+  hash.add(run.quadrature_tolerance);
 }
 
 }  // namespace
@@ -32,19 +94,25 @@ void add_mesh(ContentHash& hash, const TriMesh& mesh) {
     hash.add(std::array{c[0].value, c[1].value, c[2].value});
 }
 
-std::string run_identity(const Scene& scene, const BodySetup& setup, const RunOptions& options) {
+std::string run_identity(const Scene& scene, const PreparedBody& body, const LoadCase& load,
+                         const RunOptions& options) {
   ContentHash hash;
   for (const char* text : {CONCHOID_VERSION, __VERSION__})
     hash.add(text);
   hash.add(scene.text);
-  hash.add(name(options.method));
-  if (options.forest) hash.add(options.forest->provenance().samples_hash);
-  add_mesh(hash, setup.surface);
-  add_mesh(hash, setup.detailed);
-  for (const TriMesh& crack : setup.cracks)
+  hash.add(options.method);
+  if (options.regressor) hash.add(options.regressor->content_hash());
+  add_mesh(hash, body.surface);
+  add_mesh(hash, body.detailed);
+  for (const TriMesh& crack : body.cracks)
     add_mesh(hash, crack);
-  add_voxels(hash, scene.material.toughness_field);
-  add_voxels(hash, scene.material.strength_field);
+  add(hash, body.material);
+  add(hash, body.pieces);
+  hash.add(std::array{body.crack_edge, body.surface_edge});
+  for (const BoundaryKind kind : body.elastic->kinds())
+    hash.add(static_cast<std::uint64_t>(kind));
+  add(hash, load, body.surface);
+  add(hash, scene.run);
   return hash.hex();
 }
 

@@ -9,15 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/mesh/corners.hpp"
+
 namespace conchoid {
 namespace {
 
-using Corners = std::array<NodeId, 3>;
 using PieceId = std::size_t;
-
-bool has(const Corners& c, NodeId n) {
-  return c[0] == n || c[1] == n || c[2] == n;
-}
 
 struct Piece {
   Corners corners;

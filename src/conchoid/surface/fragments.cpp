@@ -12,7 +12,7 @@
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
 #include "conchoid/surface/slit_edges.hpp"
-#include "conchoid/surface/weld_fragments.hpp"
+#include "conchoid/surface/small_fragments.hpp"
 
 namespace conchoid {
 namespace {

@@ -8,6 +8,13 @@ namespace conchoid {
 
 enum class FaceKind : std::uint8_t { original, fracture };
 
+/// Cracks that end in a piece. Its mesh shows them as slits: pairs of coincident faces.
+struct UnfinishedCracks {
+  std::vector<TriMesh> sheets;  ///< boundary element meshes; they may stick out of the piece
+  TriMesh solid;                ///< the piece's surface without the slits; without triangles if there are none
+  std::vector<TriId> solid_face;  ///< per triangle of `solid`: that of the piece's mesh
+};
+
 /// One piece of the broken body: closed, oriented outward. Inertia for density 1 kg/m³ is not kept: multiply
 /// by ρ beforehand.
 struct Fragment {
@@ -20,7 +27,8 @@ struct Fragment {
   Vec3 center_of_mass = Vec3::Zero();
   Mat3 inertia = Mat3::Zero();  ///< about the centre of mass [kg m²]
   bool watertight = false;
-  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before dress_fragments()
+  SurfaceAttributes attributes;  ///< normals, texture coordinates, materials: empty before transfer_attributes()
+  UnfinishedCracks unfinished = {};  ///< empty in pieces read from files
 };
 
 struct FragmentSettings {

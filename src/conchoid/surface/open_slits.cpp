@@ -9,40 +9,10 @@
 
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/intersect/unfold.hpp"
-#include "conchoid/mesh/place.hpp"
+#include "conchoid/surface/slit_faces.hpp"
 
 namespace conchoid {
 namespace {
-
-/// Which nodes lie where others do.
-struct Places {
-  IdVector<NodeId, NodeId> first;  ///< per node: the first one at its place
-  IdVector<NodeId, char> shared;   ///< per node: whether there are others
-
-  explicit Places(const TriMesh& mesh) : first(first_at_place(mesh)), shared(mesh.node_count(), 0) {
-    for (std::size_t n = 0; n < first.size(); ++n)
-      if (first[NodeId(n)] != NodeId(n)) shared[NodeId(n)] = shared[first[NodeId(n)]] = 1;
-  }
-};
-
-/// Per face: those of the same piece that it lies on, if it is one of a slit.
-std::vector<std::vector<std::size_t>> opposite_faces(const Fragment& f, const Places& places) {
-  std::map<std::array<NodeId, 3>, std::vector<std::size_t>> at;
-  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
-    if (f.face_kind[t] != FaceKind::fracture) continue;
-    std::array<NodeId, 3> key = f.mesh.corners[TriId(t)];
-    for (NodeId& n : key)
-      n = places.first[n];
-    std::sort(key.begin(), key.end());
-    at[key].push_back(t);
-  }
-  std::vector<std::vector<std::size_t>> opposite(f.mesh.triangle_count());
-  for (const auto& [key, faces] : at)
-    for (const std::size_t t : faces)
-      std::copy_if(faces.begin(), faces.end(), std::back_inserter(opposite[t]),
-                   [&](std::size_t other) { return other != t; });
-  return opposite;
-}
 
 /// What lies around a node of a slit.
 struct Corner {
@@ -77,7 +47,7 @@ struct Corner {
 };
 
 /// Which way each node at a slit goes, 1 being half the slit's width.
-IdVector<NodeId, Vec3> ways(const Fragment& f, const Places& places) {
+IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places) {
   const auto opposite = opposite_faces(f, places);
   // At a slit's front both of its faces have the node: there it stays between them.
   const auto parts_from = [&](NodeId n, const std::vector<std::size_t>& faces) {
@@ -114,7 +84,7 @@ IdVector<NodeId, Vec3> ways(const Fragment& f, const Places& places) {
 }  // namespace
 
 void open_slits(Fragment& f, double width) {
-  const Places places(f.mesh);
+  const SharedPlaces places(f.mesh);
   const IdVector<NodeId, Vec3> way = ways(f, places);
   const IdVector<NodeId, Vec3> closed = f.mesh.positions;
   IdVector<NodeId, double> share(f.mesh.node_count(), 1.0);  // by place

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/surface/union_find.hpp"
+#include "conchoid/core/union_find.hpp"
 
 namespace conchoid {
 namespace {

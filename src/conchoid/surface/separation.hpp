@@ -36,8 +36,8 @@ struct Shells {
 /// Shells that enclose no material of their own (cavities, cracks that reach no surface) belong to the solid
 /// around them.
 /// Where round-off has made parts of the surface overlap, the sheet may lie inside on both sides of a mouth
-/// edge; there it passes through
-/// (`overlaps`): the shells stay closed, but some that should be apart may hang together.
+/// edge; there it passes through (`overlaps`): the shells stay closed, but some that should be apart may hang
+/// together.
 /// @throws ComputationError if an edge does not have two surface pieces or none
 Shells glue(const CutComplex& cut, const std::vector<bool>& left_out = {});
 

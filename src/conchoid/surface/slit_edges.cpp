@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include "conchoid/mesh/corners.hpp"
+
 namespace conchoid {
 namespace {
-
-using Corners = std::array<NodeId, 3>;
 
 std::map<Edge, int> sheet_edges(const CutComplex& cut) {
   std::map<Edge, int> count;

@@ -3,28 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "conchoid/crack/closing/front_joint.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
-#include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/invariants.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
 
-constexpr double kLigamentLeft = 0.8;  ///< × r̄: to which ligaments are narrowed that are too wide to break
-constexpr double kTurned = 0.5;        ///< cosine between the ways of two parts of a front that come together
-constexpr double kRoom = 0.4;          ///< of the gap between them: each may take so much
-constexpr double kLeastRoom = 0.05;    ///< × r̄: with less of it a node stays
-constexpr double kWedge = 120 * std::numbers::pi / 180;  ///< opening of a front that waits for its sides
-
 /// What the nodes are about to do, before the markers say it exactly.
 std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                          const ToughnessField& toughness, double target_edge) {
+                                          const GrowthModel& model, double target_edge) {
   std::vector<bool> on_front(sheet.mesh.node_count(), false);
   for (const SheetFront& front : sheet.fronts)
     for (const NodeId node : front.nodes)
@@ -32,8 +26,8 @@ std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::ve
   std::vector<FrontMotion> expected;
   for (const FrontStep& step : steps) {
     if (!on_front[step.node.index()] || sheet.state[step.node] == FrontState::arrested) continue;
-    const double length =
-        advance_length(step.intensity, toughness(sheet.mesh.positions[step.node]).value, target_edge);
+    const double length = model.law->length(
+        step.intensity, model.toughness(sheet.mesh.positions[step.node]).value, target_edge);
     if (length > 0)
       expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
   }
@@ -41,17 +35,17 @@ std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::ve
 }
 
 /// How far nodes may move [m].
-using Room = std::unordered_map<NodeId, double>;
+using StepLimits = std::unordered_map<NodeId, double>;
 
-void limit(Room& room, NodeId node, double length) {
-  double& most = room.try_emplace(node, length).first->second;
-  most = std::min(most, length);
+void limit(StepLimits& limits, NodeId node, double length) {
+  double& least = limits.try_emplace(node, length).first->second;
+  least = std::min(least, length);
 }
 
 /// Nodes that touch and have not been joined stop for good, unless the ligament is wide and will be narrow
 /// enough in the next frame; then both sides go on by a part of it.
 void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected, double target_edge,
-                    Room& room) {
+                    StepLimits& limits) {
   std::unordered_map<NodeId, double> way;
   for (const FrontMotion& motion : expected)
     way.emplace(motion.node, motion.displacement.norm());
@@ -68,18 +62,18 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
       alike = alike && normals[n].dot(normals[node]) > kAlikeSheets;
     }
     const bool wide = alike && touch.gap > kWidestLigament * target_edge;
-    const double share = (touch.gap - kLigamentLeft * target_edge) / (way.at(node) + opposite);
+    const double share = (touch.gap - kNarrowedLigament * target_edge) / (way.at(node) + opposite);
     for (const NodeId n : {node, ends[0], ends[1]}) {
       if (sheet.state[n] != FrontState::active) continue;
       if (!wide) sheet.state[n] = FrontState::arrested;
-      if (const auto at = way.find(n); wide && at != way.end()) limit(room, n, share * at->second);
+      if (const auto at = way.find(n); wide && at != way.end()) limit(limits, n, share * at->second);
     }
   }
 }
 
 /// Where the front opens like a wedge its sides come together first: the node at its bottom waits, and the
 /// next ones leave room for the other side.
-void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& expected, Room& room) {
+void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& expected, StepLimits& limits) {
   std::unordered_set<NodeId> moving;
   for (const FrontMotion& motion : expected)
     if (sheet.state[motion.node] == FrontState::active) moving.insert(motion.node);
@@ -92,14 +86,15 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
       const NodeId node = front.nodes[i];
       const std::size_t before = previous_index(i, n, front.closed), after = next_index(i, n, front.closed);
       if (moving.contains(front.nodes[before]) && moving.contains(front.nodes[after]) &&
-          opening_angle(sheet, front, frames[i], i) < kWedge)
-        limit(room, node, 0);
+          opening_angle(sheet, front, frames[i], i) < kWaitingWedge)
+        limit(limits, node, 0);
       for (const auto& [a, b] : {std::pair{before, previous_index(before, n, front.closed)},
                                  std::pair{after, next_index(after, n, front.closed)}}) {
         if (a == i || b == a || b == i) continue;
-        if ((frames[a].e2 + frames[b].e2).normalized().dot(frames[i].e2) > kTurned) continue;
+        if ((frames[a].e2 + frames[b].e2).normalized().dot(frames[i].e2) > kFacingWays) continue;
         if ((0.5 * (x[front.nodes[a]] + x[front.nodes[b]]) - x[node]).dot(frames[i].e2) <= 0) continue;
-        limit(room, node, kRoom * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
+        limit(limits, node,
+              kShareOfGap * segment_distance(x[node], x[node], x[front.nodes[a]], x[front.nodes[b]]));
       }
     }
   }
@@ -108,31 +103,31 @@ void wait_in_corners(const CrackSheet& sheet, const std::vector<FrontMotion>& ex
 }  // namespace
 
 AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vector<FrontStep>& given,
-                             const ToughnessField& toughness, double target_edge, FineFront* led) {
+                             const GrowthModel& model, double target_edge, FineFront* follower) {
   std::vector<FrontStep> steps = given;
-  auto expected = expected_motions(sheet, steps, toughness, target_edge);
+  auto expected = expected_motions(sheet, steps, model, target_edge);
   for (std::size_t left = expected.size(); left > 0; --left) {
     const auto joint = find_joint(sheet, expected, target_edge);
     if (!joint) break;
     const JoinedFronts joined = join_fronts(sheet, *joint);
     fine.join(sheet, *joint, joined);
-    if (led) led->join(sheet, *joint, joined);
+    if (follower) follower->join(sheet, *joint, joined);
     // The front turns there: frame and K are those of the front that was.
     std::erase_if(steps, [&](const FrontStep& step) {
       return step.node == joint->first.front() || step.node == joint->first.back() ||
              step.node == joint->second.front() || step.node == joint->second.back();
     });
-    expected = expected_motions(sheet, steps, toughness, target_edge);
+    expected = expected_motions(sheet, steps, model, target_edge);
   }
-  Room room;
-  stop_at_fronts(sheet, expected, target_edge, room);
-  wait_in_corners(sheet, expected, room);
+  StepLimits limits;
+  stop_at_fronts(sheet, expected, target_edge, limits);
+  wait_in_corners(sheet, expected, limits);
   for (FrontStep& step : steps)
-    if (const auto at = room.find(step.node); at != room.end()) step.most = at->second;
-  std::erase_if(steps, [&](const FrontStep& step) { return step.most < kLeastRoom * target_edge; });
-  const auto motions = fine.advance(sheet, steps, toughness);
-  if (led) led->advance(sheet, steps, toughness, fine);
-  for (const NodeId node : fine.stopped_riders())
+    if (const auto at = limits.find(step.node); at != limits.end()) step.limit = at->second;
+  std::erase_if(steps, [&](const FrontStep& step) { return step.limit < kLeastStep * target_edge; });
+  const auto motions = fine.advance(sheet, steps, model);
+  if (follower) follower->advance(sheet, steps, model, fine);
+  for (const NodeId node : fine.stopped_nodes())
     if (sheet.state[node] == FrontState::active) sheet.state[node] = FrontState::arrested;
   AdvanceSettings settings;
   settings.smoothing = 0;
@@ -150,7 +145,11 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   };
   AdvanceResult result = advance(sheet, motions, target_edge, settings);
   fine.adopt(sheet, result);
-  if (led) led->adopt(sheet, result);
+  if (follower) follower->adopt(sheet, result);
+#ifndef NDEBUG
+  validate(sheet, fine);
+  if (follower) validate(sheet, *follower);
+#endif
   return result;
 }
 

@@ -7,20 +7,14 @@
 #include <map>
 #include <numbers>
 
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 #include "conchoid/crack/closing/touching.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 namespace {
 
-constexpr double kLongest = 2.2;         ///< × target edge: edge across a ligament
-constexpr double kLongestOutside = 3.2;  ///< × target edge: the same where it lies outside of the body
-constexpr std::size_t kBay = 5;          ///< so many nodes inside between two outside are a last ligament
-constexpr double kAway = -0.2;           ///< cosine to the other side of an edge that runs away from it
-constexpr std::size_t kPocket = 6;       ///< so many nodes between two stretches are taken in
-constexpr double kNarrow = 75 * std::numbers::pi / 180;  ///< opening of a front that breaks
-constexpr double kOpen = 135 * std::numbers::pi / 180;   ///< of a last ligament that breaks
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A stretch of a front: `count` places from `begin` on, round the ring where it is one.
@@ -64,19 +58,19 @@ class JointFinder {
     const auto inside = [&](NodeId n) { return sheet_.state[n] != FrontState::outside; };
     for (std::size_t f = 0; f < sheet_.fronts.size(); ++f) {
       const std::size_t n = size(f);
-      if (n < kBay + 3) continue;
+      if (n < kLastLigamentNodes + 3) continue;
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t begin = next_index(i, n, front(f).closed);
         if (begin == i || inside(front(f).nodes[i]) || !inside(front(f).nodes[begin])) continue;
         Run run{f, i, 2};
         bool any = false;
-        while (run.count <= kBay + 1 && (front(f).closed || i + run.count < n) &&
+        while (run.count <= kLastLigamentNodes + 1 && (front(f).closed || i + run.count < n) &&
                inside(node(run, run.count - 1))) {
           any = any || moves[node(run, run.count - 1).index()];
           ++run.count;
         }
         if (!any || inside(node(run, run.count - 1)) || !opens(run)) continue;
-        if (auto joint = split(f, run, kLongestOutside)) return joint;
+        if (auto joint = split(f, run, kLongestBridgeOutside)) return joint;
       }
     }
     return std::nullopt;
@@ -89,7 +83,7 @@ class JointFinder {
     const std::vector<FrontFrame> frames = front_frames(sheet_, f);
     for (std::size_t k = 1; k + 1 < run.count; ++k) {
       const std::size_t i = (run.begin + k) % f.nodes.size();
-      if (opening_angle(sheet_, f, frames[i], i) < kOpen) return true;
+      if (opening_angle(sheet_, f, frames[i], i) < kLastLigamentWedge) return true;
     }
     return false;
   }
@@ -115,7 +109,7 @@ class JointFinder {
         const NodeId after = front.nodes[next_index(i, n, front.closed)];
         if (!moves[before.index()] || !moves[after.index()] || sheet_.state[node] == FrontState::outside)
           continue;
-        if (opening_angle(sheet_, front, frames[i], i) > kNarrow) continue;
+        if (opening_angle(sheet_, front, frames[i], i) > kBridgedWedge) continue;
         if ((position(before) - position(after)).norm() > kWidestLigament * edge_) continue;
         const FrontJoint joint{{before, node}, {node, after}};
         if (sound(joint) && (!found || node < found->first.back())) found = joint;
@@ -190,7 +184,7 @@ class JointFinder {
   std::size_t between(const Run& a, const Run& b) const {
     const std::size_t n = size(a.front), end = a.begin + a.count;
     if (b.begin >= end) return b.begin - end;
-    return front(a.front).closed && b.begin + n >= end ? b.begin + n - end : kPocket + 1;
+    return front(a.front).closed && b.begin + n >= end ? b.begin + n - end : kPocketNodes + 1;
   }
 
   std::optional<FrontJoint> joint_of(const std::vector<Cell>& group) const {
@@ -210,14 +204,14 @@ class JointFinder {
     lengthen(*first, *second);
     lengthen(*second, *first);
     FrontJoint joint{nodes_of(*first), nodes_of(*second)};
-    const std::size_t ahead = f == g ? between(*first, *second) : kPocket + 1;
-    const std::size_t behind = f == g ? between(*second, *first) : kPocket + 1;
-    if (ahead <= kPocket) take_pocket(*first, ahead, joint.first, joint.second);
-    if (behind <= kPocket) take_pocket(*second, behind, joint.second, joint.first);
-    if (ahead > kPocket) trim(joint.first, joint.second);
-    if (behind > kPocket) trim(joint.second, joint.first);
-    if (ahead > kPocket) reach_outside(*first, *second, joint.first, joint.second);
-    if (behind > kPocket) reach_outside(*second, *first, joint.second, joint.first);
+    const std::size_t ahead = f == g ? between(*first, *second) : kPocketNodes + 1;
+    const std::size_t behind = f == g ? between(*second, *first) : kPocketNodes + 1;
+    if (ahead <= kPocketNodes) take_pocket(*first, ahead, joint.first, joint.second);
+    if (behind <= kPocketNodes) take_pocket(*second, behind, joint.second, joint.first);
+    if (ahead > kPocketNodes) trim(joint.first, joint.second);
+    if (behind > kPocketNodes) trim(joint.second, joint.first);
+    if (ahead > kPocketNodes) reach_outside(*first, *second, joint.first, joint.second);
+    if (behind > kPocketNodes) reach_outside(*second, *first, joint.second, joint.first);
     return sound(joint) ? std::optional(joint) : std::nullopt;
   }
 
@@ -233,7 +227,7 @@ class JointFinder {
   /// Both sides of one stretch that folds on itself, at its middle; of a whole ring, at its two nodes
   /// farthest from each other.
   std::optional<FrontJoint> split(std::size_t f, const std::optional<Run>& all,
-                                  double longest = kLongest) const {
+                                  double longest = kLongestBridgeEdge) const {
     const auto& nodes = front(f).nodes;
     FrontJoint joint;
     if (all) {
@@ -307,7 +301,7 @@ class JointFinder {
     const auto apart = [&](NodeId a, NodeId b) { return (position(a) - position(b)).norm(); };
     const auto runs_away = [&](NodeId end, NodeId before, NodeId other) {
       return (position(end) - position(before)).dot(position(other) - position(before)) <
-             kAway * apart(end, before) * apart(other, before);
+             kRunningAway * apart(end, before) * apart(other, before);
     };
     while (nodes.size() > 1 && others.size() > 1) {
       const NodeId end = nodes.back(), before = nodes[nodes.size() - 2];
@@ -335,7 +329,7 @@ class JointFinder {
         theirs[previous_index(place(theirs, others.front()), theirs.size(), front(other.front).closed)];
     const auto outside = [&](NodeId x) { return sheet_.state[x] == FrontState::outside; };
     const auto near = [&](NodeId a, NodeId b) {
-      return (position(a) - position(b)).norm() < kLongest * edge_;
+      return (position(a) - position(b)).norm() < kLongestBridgeEdge * edge_;
     };
     const bool in = !outside(nodes.back()), other_in = !outside(others.front());
     if (after == before || (in && !outside(after)) || (other_in && !outside(before))) return;
@@ -344,7 +338,7 @@ class JointFinder {
     if (other_in) others.insert(others.begin(), before);
   }
 
-  bool sound(const FrontJoint& joint, double longest = kLongest) const;
+  bool sound(const FrontJoint& joint, double longest = kLongestBridgeEdge) const;
 
   const CrackSheet& sheet_;
   double edge_;

@@ -7,9 +7,6 @@
 
 namespace conchoid {
 
-inline constexpr double kWidestLigament = 1.4;  ///< × target edge: that breaks
-inline constexpr double kAlikeSheets = 0.5;     ///< cosine between normals of sheets that are oriented alike
-
 /// Two stretches of fronts that face each other across a ligament narrow enough to break at once. Both in the
 /// order of their fronts (along e3), so that first.front() lies opposite second.back() and first.back()
 /// opposite second.front(). Where the stretches belong to one front and nearly meet at an end they share

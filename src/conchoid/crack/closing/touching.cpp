@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kTouchDistance = 0.3;  ///< × target edge
-constexpr double kMeetDistance = 0.7;   ///< × target edge: where the sheets are oriented alike and …
-constexpr double kOffset = 0.45;  ///< × target edge: … no farther apart across; else they pass each other
-constexpr double kCloseDistance = 1.0;  ///< × target edge: where they are one crack already
-constexpr double kAlike = 0;            ///< cosine between their normals
-constexpr double kCloseRadius = 0.3;    ///< × target edge: rings within it close instead (sheet.cpp)
-constexpr std::size_t kNearAlong =
-    3;  ///< parts of one front fewer edges apart are neighbours, not opposite each other
 
 /// A front node, where it goes, and its forward direction.
 struct Mover {
@@ -57,7 +49,7 @@ bool neighbours_on_front(std::size_t i, std::size_t edge, std::size_t n, bool cl
     const std::size_t d = a > b ? a - b : b - a;
     return closed ? std::min(d, n - d) : d;
   };
-  return std::min(apart(i, edge), apart(i, next_index(edge, n, closed))) < kNearAlong;
+  return std::min(apart(i, edge), apart(i, next_index(edge, n, closed))) < kNeighbourEdges;
 }
 
 /// A ring about to close (sheet.hpp) touches itself by intent.
@@ -67,17 +59,17 @@ bool closes(const MovingFront& front, double target_edge) {
   for (const Mover& m : front.nodes)
     center += m.to / static_cast<double>(front.nodes.size());
   return std::all_of(front.nodes.begin(), front.nodes.end(), [&](const Mover& m) {
-    return m.moves && (m.to - center).norm() < kCloseRadius * target_edge;
+    return m.moves && (m.to - center).norm() < kClosingRadius * target_edge;
   });
 }
 
 bool touches(const Mover& m, const Mover& a, const Mover& b, bool one_front, double target_edge) {
   double distance = kTouchDistance * target_edge;
-  if (std::min(m.normal.dot(a.normal), m.normal.dot(b.normal)) > kAlike) {
+  if (std::min(m.normal.dot(a.normal), m.normal.dot(b.normal)) > kSameSide) {
     const Vec3 normal = (2 * m.normal + a.normal + b.normal).normalized();
     const double across = std::abs((0.5 * (a.from + b.from) - m.from).dot(normal));
-    if (!one_front && across > kOffset * target_edge) return false;
-    distance = (one_front ? kCloseDistance : kMeetDistance) * target_edge;
+    if (!one_front && across > kPassingOffset * target_edge) return false;
+    distance = (one_front ? kMeetOneFront : kMeetDistance) * target_edge;
   }
   const Vec3 other_forward = a.forward + b.forward;
   const Vec3 step = m.to - m.from;
@@ -124,7 +116,7 @@ std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector
           const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next_index(e, n, fronts[g].closed)];
           if (a.state == FrontState::outside && b.state == FrontState::outside) continue;
           if (f == g && neighbours_on_front(i, e, n, fronts[g].closed)) continue;
-          if (!within_reach(m, a, b, kCloseDistance * target_edge) || !touches(m, a, b, f == g, target_edge))
+          if (!within_reach(m, a, b, kMeetOneFront * target_edge) || !touches(m, a, b, f == g, target_edge))
             continue;
           touches_found.push_back({f, i, g, e, segment_distance(m.from, m.from, a.from, b.from)});
         }

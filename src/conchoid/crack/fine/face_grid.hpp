@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "conchoid/core/cells.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -26,25 +27,12 @@ class FaceGrid {
     int part;
     double fraction;  ///< of the path, 0 … 1
   };
-  /// First triangle that the path from → to passes through at more than kGrazing to its plane and that has
+  /// First triangle that the path from → to passes through at more than kGrazingSine to its plane and that has
   /// none of the nodes of `own`, sorted. Of triangles met at the same place the one with the lowest id.
   std::optional<Hit> first_hit(const TriMesh& mesh, const Vec3& from, const Vec3& to,
                                const std::vector<NodeId>& own) const;
 
  private:
-  struct Cell {
-    std::int64_t x, y, z;
-    bool operator==(const Cell&) const = default;
-  };
-  struct CellHash {
-    std::size_t operator()(const Cell& c) const;
-  };
-  struct Range {
-    Cell low, high;
-  };
-  Cell cell_of(const Vec3& x) const;
-  Range range(const std::vector<Vec3>& points) const;
-
   double cell_;
   std::vector<int> part_;  // per triangle
   std::unordered_map<Cell, std::vector<TriId>, CellHash> triangles_;

@@ -10,19 +10,11 @@
 #include "conchoid/crack/fine/subdivide.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/front/strip.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kShortest = 0.5, kLongest = 1.5;  ///< × h: spacing of the markers
-constexpr double kRowAfter = 0.5;      ///< × h: distance from the last row at which a marker leaves the next
-constexpr double kLastRowAfter = 0.1;  ///< × h: the same at the end of a run
-constexpr double kFaceDistance = 0.5;  ///< × h: how far from a face a marker stops
-constexpr std::size_t kOwnMarkers = 4;  ///< markers on either side whose rows are not in a marker's way
-constexpr int kMostParts = 4;           ///< of a sub-step, where h is finer than it
-constexpr int kMostDivisions = 64;      ///< edges of initial triangles are divided into at most this many
-constexpr double kRound = 1e-6;  ///< so that r̄/h = 20 + round-off is 20, and a face just reached is reached
 
 double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
   const std::size_t n = front.nodes.size(), edges = edge_count(n, front.closed);
@@ -36,11 +28,11 @@ double mean_front_edge(const TriMesh& mesh, const SheetFront& front) {
 MarkerCurve initial_curve(const TriMesh& surface, const Subdivision& fine, const SheetFront& coarse) {
   MarkerCurve curve;
   curve.closed = coarse.closed;
-  const auto add = [&](NodeId node, NodeId rider) {
+  const auto add = [&](NodeId node, NodeId attached) {
     Marker marker;
     marker.node = node;
     marker.position = surface.positions[node];
-    marker.coarse = rider;
+    marker.coarse = attached;
     curve.markers.push_back(marker);
   };
   const std::size_t n = coarse.nodes.size();
@@ -85,8 +77,9 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
     case StripNode::Kind::merged:
       for (std::size_t i = node.first; i != node.last;) {
         i = old.next(i);
-        const bool rides = old.markers[i].coarse.valid();
-        if (rides || (!marker.coarse.valid() && old.markers[i].node < marker.node)) marker = old.markers[i];
+        const bool attached = old.markers[i].coarse.valid();
+        if (attached || (!marker.coarse.valid() && old.markers[i].node < marker.node))
+          marker = old.markers[i];
       }
       break;
     case StripNode::Kind::inserted: {
@@ -107,8 +100,11 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
 }  // namespace
 
 FineFront::FineFront(const CrackSheet& sheet, const FineFrontSettings& settings)
-    : settings_(settings), faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
+    : settings_(settings),
+      longest_spacing_(0),
+      faces_(2 * std::min(settings.spacing, settings.resolution / 4)) {
   settings_.spacing = std::min(settings.spacing, settings.resolution / 4);
+  longest_spacing_ = kLongestSpacing * settings_.spacing;
   append_parts(sheet);
 }
 
@@ -118,7 +114,7 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f)
     edge = std::max(edge, mean_front_edge(sheet.mesh, sheet.fronts[f]));
   const int parts =
-      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRound)), 1, kMostDivisions);
+      std::clamp(static_cast<int>(std::ceil(edge / settings_.spacing - kRoundOff)), 1, kInitialDivisions);
   const Subdivision fine(sheet.mesh, known_triangles_, parts, surface_);
   const std::vector<int> connected = connected_parts(surface_);
   std::map<int, int> part;  // numbers that no earlier part has
@@ -129,7 +125,10 @@ void FineFront::append_parts(const CrackSheet& sheet) {
   };
   for (std::size_t f = curves_.size(); f < sheet.fronts.size(); ++f) {
     curves_.push_back(initial_curve(surface_, fine, sheet.fronts[f]));
-    curves_.back().part = part_of(curves_.back().markers.front().node);
+    const MarkerCurve& curve = curves_.back();
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      longest_spacing_ = std::max(longest_spacing_, curve.spacing(i));
+    curves_.back().part = part_of(curve.markers.front().node);
   }
   for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
     faces_.take(surface_, TriId(t), part_of(surface_.corners[TriId(t)][0]));
@@ -138,18 +137,18 @@ void FineFront::append_parts(const CrackSheet& sheet) {
 }
 
 std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                                            const ToughnessField& toughness) {
-  return advance(sheet, steps, toughness, nullptr);
+                                            const GrowthModel& model) {
+  return advance(sheet, steps, model, nullptr);
 }
 
 void FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& steps,
-                        const ToughnessField& toughness, const FineFront& leader) {
-  advance(sheet, steps, toughness, &leader.tracks_);
+                        const GrowthModel& model, const FineFront& driving) {
+  advance(sheet, steps, model, &driving.tracks_);
 }
 
 std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::vector<FrontStep>& given,
-                                            const ToughnessField& toughness,
-                                            const std::vector<FrontTrack>* leaders) {
+                                            const GrowthModel& model,
+                                            const std::vector<FrontTrack>* driving) {
   append_parts(sheet);
   frame_ = sheet.frame + 1;
   std::unordered_map<NodeId, FrontStep> step_of;
@@ -162,35 +161,35 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     FrontSteps steps(sheet, sheet.fronts[f], normals, step_of);
     if (settings_.smooth_angles) steps.smooth_angles();
     MarkerCurve& curve = curves_[f];
-    if (leaders) attach_riders(curve, steps.nodes(), sheet.mesh.positions);
+    if (driving) reattach_nodes(curve, steps.nodes(), sheet.mesh.positions);
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers) {
       marker.direction_before = marker.direction;
       marker.moved = false;
-      if (leaders && marker.at_own_face) marker.arrested = marker.at_own_face = false;
+      if (driving && marker.at_own_face) marker.arrested = marker.at_own_face = false;
     }
     std::vector<bool> inside;  // per edge of the coarse front: not both of its nodes are outside
     for (std::size_t k = 0; k < steps.size(); ++k)
       inside.push_back(sheet.state[steps.nodes()[k]] != FrontState::outside ||
                        sheet.state[steps.nodes()[next_index(k, steps.size(), steps.closed())]] !=
                            FrontState::outside);
-    sweep(curve, steps, inside, toughness, tracks_[f], leaders ? &(*leaders)[f] : nullptr);
-    if (!leaders) append_motions(sheet, curve, steps, motions);
+    sweep(curve, steps, inside, model, tracks_[f], driving ? &(*driving)[f] : nullptr);
+    if (!driving) append_motions(sheet, curve, steps, motions);
   }
   return motions;
 }
 
 void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::vector<bool>& inside,
-                      const ToughnessField& toughness, FrontTrack& track, const FrontTrack* leader) {
+                      const GrowthModel& model, FrontTrack& track, const FrontTrack* driving) {
   const auto smooth_front = [&](double time) {
-    if (!leader || leader->empty()) return smoothed_positions(curve, settings_.resolution);
+    if (!driving || driving->empty()) return smoothed_positions(curve, settings_.resolution);
     std::vector<Vec3> on_track;
     for (const Marker& marker : curve.markers)
-      on_track.push_back(leader->at(marker.parameter, time));
+      on_track.push_back(driving->at(marker.parameter, time));
     return on_track;
   };
   const double divided = settings_.resolution / settings_.spacing / settings_.sub_steps;
-  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRound)), 1, kMostParts);
+  const int parts = std::clamp(static_cast<int>(std::ceil(divided - kRoundOff)), 1, kSubStepParts);
   const int count = parts * settings_.sub_steps;
   for (int step = 0; step < count; ++step) {
     const double begin = static_cast<double>(step) / count;
@@ -201,16 +200,16 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     std::vector<Vec3> from;
     for (const Marker& marker : curve.markers) {
       from.push_back(marker.position);
-      part.here.push_back(toughness(marker.position));
+      part.here.push_back(model.toughness(marker.position));
       varied_ = varied_ || !part.here.back().gradient.isZero(0);
     }
     if (varied_) {
       part.smooth = smooth_front(begin);
       track.add(begin, curve, part.smooth, steps.size());
     }
-    if (!move_markers(curve, steps, toughness, part)) continue;
+    if (!move_markers(curve, steps, model, part)) continue;
     stop_at_faces(curve, from, inside);
-    leave_row(curve, kRowAfter * settings_.spacing);
+    leave_row(curve, kRowDistance * settings_.spacing);
   }
   if (varied_) track.add(1, curve, smooth_front(1), steps.size());
 }
@@ -237,7 +236,7 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
     const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
     if (!hit) continue;
     const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
-    if (hit->part != curve.part && at > (1 + kRound) * way.norm()) continue;  // not there yet
+    if (hit->part != curve.part && at > (1 + kRoundOff) * way.norm()) continue;  // not there yet
     marker.arrested = true;
     marker.at_own_face = hit->part == curve.part;
     const double stop =
@@ -246,7 +245,7 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
   }
 }
 
-std::vector<NodeId> FineFront::stopped_riders() const {
+std::vector<NodeId> FineFront::stopped_nodes() const {
   std::vector<NodeId> out;
   for (const MarkerCurve& curve : curves_)
     for (const Marker& marker : curve.markers)
@@ -267,7 +266,7 @@ void FineFront::leave_row(MarkerCurve& curve, double least) {
   }
   if (!any) return;
   const double h = settings_.spacing;
-  const StripSettings strip_settings{kLongest * h, kShortest * h, kShortest * h,
+  const StripSettings strip_settings{kLongestSpacing * h, kShortestSpacing * h, kShortestSpacing * h,
                                      [&](std::size_t a, std::size_t b, double s) {
                                        if (s != 0.5) return Vec3((1 - s) * row.target[a] + s * row.target[b]);
                                        return smooth_middle(row, a, b);
@@ -300,7 +299,7 @@ void FineFront::append_motions(const CrackSheet& sheet, MarkerCurve& curve, cons
     moves.push_back(steps.moves(k) && !held.contains(steps.nodes()[k]));
     center += sheet.mesh.positions[steps.nodes()[k]] / static_cast<double>(steps.size());
   }
-  slide_riders(curve, steps.nodes(), moves);
+  slide_attached_nodes(curve, steps.nodes(), moves);
   std::unordered_map<NodeId, Vec3> position;
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve.markers[i].coarse.valid()) position.emplace(curve.markers[i].coarse, coarse_position(curve, i));
@@ -347,7 +346,7 @@ void FineFront::follow(MarkerCurve& curve, const std::vector<FrontSuccession>& s
   std::unordered_map<NodeId, std::size_t> at;
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve.markers[i].coarse.valid()) at.emplace(curve.markers[i].coarse, i);
-  std::vector<NodeId> rider(curve.size());
+  std::vector<NodeId> attached(curve.size());
   for (const FrontSuccession& s : succession) {
     const auto first = at.find(s.first), last = at.find(s.last);
     if (first == at.end() || last == at.end()) continue;
@@ -356,10 +355,10 @@ void FineFront::follow(MarkerCurve& curve, const std::vector<FrontSuccession>& s
       marker = marker_between(curve, first->second, last->second, 0.5, true);
     if (s.kind == FrontSuccession::Kind::inserted)
       marker = marker_between(curve, first->second, last->second, s.s, false);
-    if (!rider[marker].valid()) rider[marker] = s.node;
+    if (!attached[marker].valid()) attached[marker] = s.node;
   }
   for (std::size_t i = 0; i < curve.size(); ++i)
-    curve.markers[i].coarse = rider[i];
+    curve.markers[i].coarse = attached[i];
 }
 
 void FineFront::close(MarkerCurve& curve) {
@@ -377,7 +376,7 @@ void FineFront::close(MarkerCurve& curve) {
 
 void FineFront::finish() {
   for (MarkerCurve& curve : curves_)
-    leave_row(curve, kLastRowAfter * settings_.spacing);
+    leave_row(curve, kLastRowDistance * settings_.spacing);
 }
 
 }  // namespace conchoid

@@ -6,18 +6,17 @@
 #include <set>
 #include <utility>
 
-#include "conchoid/crack/closing/front_zip.hpp"
+#include "conchoid/crack/closing/bridge_triangulation.hpp"
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 // Fine fronts that meet.
 namespace conchoid {
 
 namespace {
 
-constexpr double kLongestAcross = 1.5;  ///< × h: edges across a ligament
-
-/// The marker that carries a coarse node, else the one nearest to it.
+/// The marker a coarse node is attached to, else the one nearest to it.
 std::size_t marker_at(const MarkerCurve& curve, NodeId coarse, const Vec3& x) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -51,7 +50,7 @@ class Divider {
   }
 
   void run(double longest) {
-    for (int round = 0; round < kMostRounds && divide_once(longest); ++round) {
+    for (int round = 0; round < kDivisionRounds && divide_once(longest); ++round) {
     }
     mesh_.corners.insert(mesh_.corners.end(), triangles_.begin(), triangles_.end());
   }
@@ -67,9 +66,6 @@ class Divider {
   }
 
  private:
-  static constexpr int kMostRounds = 1000;
-  static constexpr double kTie = 1e-9;
-
   /// Divides all edges that are the longest in their triangles.
   bool divide_once(double longest) {
     std::map<Edge, std::vector<std::size_t>> around;
@@ -87,7 +83,7 @@ class Divider {
       return std::all_of(both.begin(), both.end(), [&](std::size_t t) {
         for (int k = 0; k < 3; ++k)
           if (const auto other = length.find(edge(t, k)); other != length.end() && other->first != e) {
-            const bool tie = std::abs(other->second - l) <= kTie * l;
+            const bool tie = std::abs(other->second - l) <= kEqualLength * l;
             if (tie ? other->first < e : other->second > l) return false;
           }
         return true;
@@ -128,7 +124,7 @@ FineFront::JointEnds FineFront::fill_ligament(const std::vector<NodeId>& first,
     for (std::size_t i = 1; i < run->size(); ++i)
       kept.emplace_back((*run)[i - 1], (*run)[i]);
   Divider divider(surface_, triangles_between(surface_.positions, normals, first, second), std::move(kept));
-  divider.run(kLongestAcross * settings_.spacing);
+  divider.run(kLongestFineBridgeEdge * settings_.spacing);
   for (std::size_t t = birth_.size(); t < surface_.triangle_count(); ++t)
     faces_.take(surface_, TriId(t), part);
   birth_.resize(surface_.triangle_count(), frame_);
@@ -181,10 +177,10 @@ void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const Joi
       }
       links.emplace_back(from, to);
     };
-    for (const auto& [marker, rider] :
+    for (const auto& [marker, node] :
          {std::pair{a.front(), joint.first.front()}, std::pair{a.back(), joint.first.back()},
           std::pair{b.front(), joint.second.front()}, std::pair{b.back(), joint.second.back()}}) {
-      markers[marker].coarse = rider;
+      markers[marker].coarse = node;
       markers[marker].direction.setZero();
       markers[marker].arrested = markers[marker].at_own_face = false;
     }
@@ -212,7 +208,7 @@ void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const Joi
           curve.markers.push_back(markers[i]);
         break;
       }
-    for (Marker& marker : curve.markers)  // of the other's nodes none may ride here
+    for (Marker& marker : curve.markers)  // of the other's nodes none may be attached here
       if (marker.coarse.valid() &&
           std::find(front.nodes.begin(), front.nodes.end(), marker.coarse) == front.nodes.end())
         marker.coarse = NodeId();

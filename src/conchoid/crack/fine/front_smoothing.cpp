@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {
-
-constexpr int kPasses = 2;
 
 /// Distance along the curve from marker i to its nearer end, at most `most`; of a ring a half of its length.
 double room(const MarkerCurve& curve, std::size_t i, double most) {
@@ -69,7 +69,7 @@ std::vector<Vec3> smoothed_positions(const MarkerCurve& curve, double width) {
 
 void smooth_along(const MarkerCurve& curve, const std::vector<bool>& takes_part,
                   std::vector<double>& values) {
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kDeflectionPasses; ++pass) {
     const std::vector<double> old = values;
     for (std::size_t i = 0; i < curve.size(); ++i) {
       const std::size_t a = curve.previous(i), b = curve.next(i);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "conchoid/crack/front/front_frames.hpp"
-#include "conchoid/crack/law/criterion.hpp"
 
 namespace conchoid {
 
@@ -92,10 +91,10 @@ double FrontSteps::intensity(double parameter) const {
   return (1 - s) * steps_[a].intensity + s * steps_[b].intensity;
 }
 
-double FrontSteps::length(double parameter, double toughness, double resolution) const {
+double FrontSteps::length(double parameter, const GrowthLaw& law, double toughness, double resolution) const {
   const auto [a, b, s] = place(parameter);
   const auto of = [&](const FrontStep& step) {
-    return std::min(step.most, advance_length(step.intensity, toughness, resolution));
+    return std::min(step.limit, law.length(step.intensity, toughness, resolution));
   };
   return (1 - s) * of(steps_[a]) + s * of(steps_[b]);
 }

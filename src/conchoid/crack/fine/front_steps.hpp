@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conchoid/crack/front/sheet.hpp"
+#include "conchoid/crack/law/growth_law.hpp"
 
 namespace conchoid {
 
@@ -12,9 +13,10 @@ namespace conchoid {
 struct FrontStep {
   NodeId node;  ///< on a front of the sheet
   FrontFrame frame;
-  double angle = 0;      ///< θ from e2 towards e1 [rad]
-  double intensity = 0;  ///< K_eff [Pa·√m]; against the toughness it gives the length; 0: stays
-  double most = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
+  double angle = 0;  ///< θ from e2 towards e1 [rad], GrowthLaw::direction()
+  double intensity =
+      0;  ///< K_eff [Pa·√m], GrowthLaw::drive(); against the toughness it gives the length; 0: stays
+  double limit = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
 };
 
 /// Steps for all nodes that move: those given, and for nodes outside of the body next to one of them the mean
@@ -44,8 +46,8 @@ class FrontSteps {
   double angle(double parameter) const;
   /// K_eff interpolated likewise [Pa·√m].
   double intensity(double parameter) const;
-  /// advance_length() of both nodes, interpolated [m].
-  double length(double parameter, double toughness, double resolution) const;
+  /// GrowthLaw::length() of both nodes, interpolated [m].
+  double length(double parameter, const GrowthLaw& law, double toughness, double resolution) const;
 
  private:
   struct Place {

@@ -5,17 +5,11 @@
 #include <unordered_map>
 
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kSlide = 0.25;  ///< share of the way to the middle of its neighbours a coarse node slides …
-constexpr double kSlideFrom = 0.2;  ///< … where its two edges differ by more than this share of their sum
-
-constexpr double kMostOffset = 0.5;  ///< of a coarse edge: a marker from the coarse node it carries
-
-constexpr double kTie = 1e-6;  ///< of the arc: markers equally near
 
 std::unordered_map<NodeId, std::size_t> places(const std::vector<NodeId>& coarse) {
   std::unordered_map<NodeId, std::size_t> place;
@@ -24,8 +18,8 @@ std::unordered_map<NodeId, std::size_t> places(const std::vector<NodeId>& coarse
   return place;
 }
 
-/// Markers that carry a coarse node, in order.
-std::vector<std::size_t> riders(const MarkerCurve& curve) {
+/// Markers with a coarse node attached, in order.
+std::vector<std::size_t> markers_with_node(const MarkerCurve& curve) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (curve.markers[i].coarse.valid()) found.push_back(i);
@@ -66,19 +60,19 @@ double MarkerCurve::spacing(std::size_t i) const {
 
 void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse) {
   const auto place = places(coarse);
-  const auto stops = riders(curve);
+  const auto stops = markers_with_node(curve);
   if (stops.empty()) return;
   const std::size_t n = curve.size();
   const auto period = static_cast<double>(coarse.size());
-  const auto carried = [&](std::size_t r) { return place.at(curve.markers[stops[r]].coarse); };
+  const auto place_of = [&](std::size_t r) { return place.at(curve.markers[stops[r]].coarse); };
   const auto of = [&](std::size_t r) {
-    return static_cast<double>(carried(r)) + curve.markers[stops[r]].offset;
+    return static_cast<double>(place_of(r)) + curve.markers[stops[r]].offset;
   };
   for (std::size_t r = 0; r < stops.size(); ++r) {
     const std::size_t after = r + 1 < stops.size() ? r + 1 : 0;
     const bool tail = after == 0 && !curve.closed;
     const std::size_t count = tail ? n - stops[r] : (stops[after] + n - stops[r] - 1) % n + 1;
-    const double round = carried(after) <= carried(r) && curve.closed ? period : 0.0;
+    const double round = place_of(after) <= place_of(r) && curve.closed ? period : 0.0;
     const double from = of(r), to = tail ? from : std::max(from, of(after) + round);
     double total = 0, arc = 0;
     for (std::size_t k = 0, i = stops[r]; k < count; ++k, i = curve.next(i))
@@ -97,11 +91,11 @@ void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse) {
   std::rotate(curve.markers.begin(), first, curve.markers.end());
 }
 
-void attach_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse,
-                   const IdVector<NodeId, Vec3>& positions) {
+void reattach_nodes(MarkerCurve& curve, const std::vector<NodeId>& coarse,
+                    const IdVector<NodeId, Vec3>& positions) {
   const auto place = places(coarse);
   const auto off = [&](std::size_t i, const Vec3& x) { return (curve.markers[i].position - x).norm(); };
-  for (std::size_t stop : riders(curve)) {
+  for (std::size_t stop : markers_with_node(curve)) {
     const NodeId node = curve.markers[stop].coarse;
     const Vec3& x = positions[node];
     std::size_t i = stop;
@@ -121,7 +115,8 @@ void attach_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse,
     const std::size_t other =
         arc > 0 ? next_index(k, coarse.size(), curve.closed) : previous_index(k, coarse.size(), curve.closed);
     const double edge = (positions[coarse[other]] - x).norm();
-    curve.markers[i].offset = end || !(edge > 0) ? 0.0 : std::clamp(arc / edge, -kMostOffset, kMostOffset);
+    curve.markers[i].offset =
+        end || !(edge > 0) ? 0.0 : std::clamp(arc / edge, -kMarkerOffset, kMarkerOffset);
   }
 }
 
@@ -149,7 +144,7 @@ std::size_t marker_between(const MarkerCurve& curve, std::size_t a, std::size_t 
     if (i == b && !ends) break;
     const double off = std::abs(arc - s * total);
     const bool tie =
-        std::abs(off - least) <= kTie * total;  // the same choice whichever way the front is walked
+        std::abs(off - least) <= kEqualArc * total;  // the same choice whichever way the front is walked
     if (tie ? curve.markers[i].node < curve.markers[best].node : off < least) {
       least = off;
       best = i;
@@ -158,9 +153,10 @@ std::size_t marker_between(const MarkerCurve& curve, std::size_t a, std::size_t 
   return best;
 }
 
-void slide_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse, const std::vector<bool>& may_slide) {
+void slide_attached_nodes(MarkerCurve& curve, const std::vector<NodeId>& coarse,
+                          const std::vector<bool>& may_slide) {
   const auto place = places(coarse);
-  const auto stops = riders(curve);
+  const auto stops = markers_with_node(curve);
   const std::size_t n = stops.size();
   if (n < 3) return;
   std::vector<std::size_t> to = stops;
@@ -172,13 +168,13 @@ void slide_riders(MarkerCurve& curve, const std::vector<NodeId>& coarse, const s
     if (std::abs(after - before) <= kSlideFrom * (after + before)) continue;
     to[r] = marker_at_distance(curve, stops[r], kSlide * 0.5 * (after - before));
   }
-  std::vector<NodeId> carried;
+  std::vector<NodeId> attached;
   for (std::size_t stop : stops) {
-    carried.push_back(curve.markers[stop].coarse);
+    attached.push_back(curve.markers[stop].coarse);
     curve.markers[stop].coarse = NodeId();
   }
   for (std::size_t r = 0; r < n; ++r)
-    curve.markers[to[r]].coarse = carried[r];
+    curve.markers[to[r]].coarse = attached[r];
 }
 
 }  // namespace conchoid

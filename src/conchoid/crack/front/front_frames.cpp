@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {
@@ -56,7 +58,7 @@ IdVector<NodeId, Vec3> fan_centers(const TriMesh& mesh) {
 
 /// Normals at the front nodes, carried on from the facets to the front: a facet's normal is that of a smooth
 /// surface in its middle, not at its edge. Linear from the fan of the node itself and those of its neighbours
-/// behind the front; less where these differ by more than kSmoothTurn, as at a kink, and nothing at twice
+/// behind the front; less where these differ by more than kSmoothSurfaceTurn, as at a kink, and nothing at twice
 /// that.
 class CarriedNormals {
  public:
@@ -95,12 +97,11 @@ class CarriedNormals {
     const double own = (mesh_.positions[node] - centers_[node]).dot(forward);
     if (there.isZero(0) || !(own > 0) || !(distance > 1.2 * own)) return here;
     const Vec3 turn = here - there;
-    const double smooth = std::clamp(2 - turn.norm() / kSmoothTurn, 0.0, 1.0);
+    const double smooth = std::clamp(2 - turn.norm() / kSmoothSurfaceTurn, 0.0, 1.0);
     return here + smooth * std::min(1.0, own / (distance - own)) * turn;
   }
 
  private:
-  static constexpr double kSmoothTurn = 0.15;  // rad
   const TriMesh& mesh_;
   const IdVector<NodeId, Vec3>& area_vectors_;
   IdVector<NodeId, Vec3> centers_;
@@ -159,6 +160,10 @@ std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId,
   }
   fill_missing(frames, valid, closed);
   return frames;
+}
+
+Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle) {
+  return std::cos(angle) * e2 + std::sin(angle) * e1;
 }
 
 FrontFrame interpolate(const FrontFrame& a, const FrontFrame& b, double s) {

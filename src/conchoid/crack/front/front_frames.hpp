@@ -24,6 +24,9 @@ std::vector<FrontFrame> front_frames(const TriMesh& mesh, const IdVector<NodeId,
 /// (1−s) a + s b, made orthonormal again: e1 first, then e3 (e2 = e3 × e1). 0 ≤ s ≤ 1.
 FrontFrame interpolate(const FrontFrame& a, const FrontFrame& b, double s);
 
+/// cosθ e2 + sinθ e1: unit direction at angle θ.
+Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle);
+
 /// Turns a ring so that it starts at its smallest id: the same for every walk around it.
 void start_at_smallest_id(std::vector<NodeId>& ring);
 

@@ -7,16 +7,11 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/front/strip.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kCloseRadius = 0.3;      ///< × target edge: smaller rings close
-constexpr double kSmoothingAcross = 0.2;  ///< share of the smoothing that acts across the front
-constexpr double kTie = 1e-6;
-constexpr double kAlike =
-    0.1;  ///< cosine between mean normals below which two cracks stand across each other
 
 /// Motion per node of the sheet.
 class Motions {
@@ -83,7 +78,7 @@ NodeId closest_node(const TriMesh& mesh, const std::vector<NodeId>& candidates, 
   double least = 0;
   for (NodeId c : candidates) {
     const double distance = (mesh.positions[c] - x).norm();
-    const bool tie = best.valid() && std::abs(distance - least) <= kTie * std::max(distance, least);
+    const bool tie = best.valid() && std::abs(distance - least) <= kEqualDistance * std::max(distance, least);
     if (!best.valid() || (tie ? c < best : distance < least)) {
       best = c;
       least = distance;
@@ -215,7 +210,7 @@ TriMesh oriented_like(const CrackSheet& sheet, TriMesh part) {
       theirs += area_vector(sheet.mesh, TriId(t));
   for (std::size_t t = 0; t < part.triangle_count(); ++t)
     own += area_vector(part, TriId(t));
-  if (own.dot(theirs) < -kAlike * own.norm() * theirs.norm())
+  if (own.dot(theirs) < -kAcrossSheets * own.norm() * theirs.norm())
     for (auto& c : part.corners)
       std::swap(c[1], c[2]);
   return part;
@@ -249,7 +244,7 @@ AdvanceResult advance(CrackSheet& sheet, const std::vector<FrontMotion>& request
     if (settings.smoothing > 0) smooth(curve, settings.smoothing);
     StripSettings strip_settings{settings.split_above * target_edge,
                                  settings.collapse_below * target_edge,
-                                 kCloseRadius * target_edge,
+                                 kClosingRadius * target_edge,
                                  {}};
     if (settings.between)
       strip_settings.between = [&](std::size_t a, std::size_t b, double s) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "conchoid/crack/front/front.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
@@ -86,9 +87,9 @@ struct AdvanceSettings {
   /// Share of the way to the middle of its neighbours along the front (and a fifth of it across) that a new
   /// node is drawn. 0: none.
   double smoothing = 0.25;
-  bool stop_touching = true;    ///< nodes that touch (touching_nodes) are not moved and become arrested
-  double split_above = 1.4;     ///< × target_edge
-  double collapse_below = 0.2;  ///< × target_edge
+  bool stop_touching = true;         ///< nodes that touch (touching_nodes) are not moved and become arrested
+  double split_above = kSplitAbove;  ///< × target_edge
+  double collapse_below = kCollapseBelow;  ///< × target_edge
   /// Position of inserted and merged nodes between two old nodes; see StripSettings. Empty: straight.
   std::function<Vec3(NodeId a, NodeId b, double s)> between = {};
 };

@@ -4,15 +4,11 @@
 #include <cmath>
 
 #include "conchoid/crack/front/strip_runs.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kTie = 1e-6;         ///< relative difference below which two diagonals count as equally long
-constexpr double kLeastShape = 1e-3;  ///< smallest 2 area / (longest edge)² of a strip triangle
-constexpr double kLeastCosine = 0.02;  ///< between a strip triangle's normal and displacement × tangent
-constexpr int kHalvings = 4;
 
 /// The strip before its nodes have ids: vertices are numbered old nodes first (position in the curve), then
 /// new ones.
@@ -157,7 +153,7 @@ class Drafting {
   void quad(std::size_t i, std::size_t j, std::size_t a, std::size_t b) {
     const double from_i = (draft_.position[b] - draft_.position[i]).norm();
     const double from_j = (draft_.position[a] - draft_.position[j]).norm();
-    const bool tie = std::abs(from_i - from_j) <= kTie * std::max(from_i, from_j);
+    const bool tie = std::abs(from_i - from_j) <= kEqualDiagonals * std::max(from_i, from_j);
     bool at_i = tie ? curve_.nodes[i] < curve_.nodes[j] : from_i < from_j;
     if (!sound_pair(i, j, a, b, at_i) && sound_pair(i, j, a, b, !at_i)) at_i = !at_i;
     if (at_i) {
@@ -175,8 +171,8 @@ class Drafting {
     const Vec3 expected = cross(x[a] - x[i] + x[b] - x[j], x[j] - x[i]);
     const Vec3 first = at_i ? area_vector2(x[i], x[a], x[b]) : area_vector2(x[i], x[a], x[j]);
     const Vec3 second = at_i ? area_vector2(x[i], x[b], x[j]) : area_vector2(x[a], x[b], x[j]);
-    return first.dot(expected) > kLeastCosine * first.norm() * expected.norm() &&
-           second.dot(expected) > kLeastCosine * second.norm() * expected.norm();
+    return first.dot(expected) > kLeastStripCosine * first.norm() * expected.norm() &&
+           second.dot(expected) > kLeastStripCosine * second.norm() * expected.norm();
   }
 
   void face(std::size_t a, std::size_t b, std::size_t c, std::size_t edge) {
@@ -207,8 +203,8 @@ std::vector<std::size_t> spoiled_nodes(const Draft& draft, const StripCurve& cur
                &c = draft.position[face.corners[2]];
     const Vec3 area = area_vector2(a, b, c);
     const double longest2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    if (area.norm() > kLeastShape * longest2 &&
-        area.dot(expected) > kLeastCosine * area.norm() * expected.norm())
+    if (area.norm() > kLeastStripShape * longest2 &&
+        area.dot(expected) > kLeastStripCosine * area.norm() * expected.norm())
       continue;
     for (std::size_t k : {i, j})
       if (moved[k]) bad.push_back(k);
@@ -228,7 +224,7 @@ Draft sound_draft(const TriMesh& mesh, const StripCurve& curve, const StripSetti
     for (std::size_t i : bad) {
       const Vec3& x = mesh.positions[curve.nodes[i]];
       target[i] = x + 0.5 * (target[i] - x);
-      if (attempt >= kHalvings) moved[i] = false;
+      if (attempt >= kStripHalvings) moved[i] = false;
     }
   }
 }

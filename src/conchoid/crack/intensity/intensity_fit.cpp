@@ -7,21 +7,11 @@
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/intensity/front_distance.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
+#include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
 
 namespace {
-
-constexpr double kReachAlong = 1.6;  ///< samples' feet lie within this many edge lengths of the front node …
-constexpr double kReachBehind = 3.6;  ///< … and the samples within this many of the front
-constexpr double kFullWeightFrom =
-    0.4;                      ///< rows nearer than this (a thin last strip) count less: (r / 0.4 h)²
-constexpr int kMostRows = 6;  ///< rows of nodes searched: thin strips take several to reach 0.4 h
-/// Keeps A', A" and B at 0 where the samples cannot tell them; A" first, as K varies slowly along a front.
-/// B of a Galerkin solution is damped more: on a crack of three rows it would follow the deviation, not the
-/// field.
-constexpr double kGalerkinRidge = 1e-2;
-constexpr double kRidge[3] = {1e-4, 1e-2, 1e-4};
 
 double mean_edge_length(const TriMesh& crack, const Front& front, std::size_t i) {
   const std::size_t n = front.nodes.size();
@@ -79,8 +69,8 @@ double along_front(const TriMesh& crack, const Front& front, std::size_t i, cons
 }
 
 double weight(const OpeningSample& sample, bool galerkin_openings) {
-  const double thin = std::min(1.0, sample.r / kFullWeightFrom);
-  const double s = sample.s / kReachAlong;
+  const double thin = std::min(1.0, sample.r / kFitFullWeight);
+  const double s = sample.s / kFitReachAlong;
   const double near = (1 - s * s) / (1 + 0.25 * sample.r * sample.r);
   return thin * thin * near * near * (galerkin_openings && sample.row == 1 ? kFirstRowWeight : 1.0);
 }
@@ -140,7 +130,7 @@ std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const
                              const std::vector<bool>& on_front) {
   std::vector<int> rows(crack.node_count(), 0);
   std::vector<NodeId> layer = front.nodes;
-  for (int row = 1; row <= kMostRows && !layer.empty(); ++row) {
+  for (int row = 1; row <= kFitRows && !layer.empty(); ++row) {
     std::vector<NodeId> next;
     for (NodeId from : layer)
       for (const NodeId* to = links.begin(from); to != links.end(from); ++to) {
@@ -159,12 +149,12 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
   const double h = mean_edge_length(crack, front, i);
   std::vector<OpeningSample> samples;
   if (!(h > 0)) return samples;
-  for (NodeId node : nodes_behind(crack, links, front, i, rows, (kReachBehind + kReachAlong) * h)) {
+  for (NodeId node : nodes_behind(crack, links, front, i, rows, (kFitReachBehind + kFitReachAlong) * h)) {
     const FrontFoot foot = closest_foot(crack, front, crack.positions[node], edges_around(i, 2));
     OpeningSample sample;
     sample.r = foot.distance / h;
     sample.s = along_front(crack, front, i, foot) / h;
-    if (!(sample.r > 1e-3) || sample.r > kReachBehind || std::abs(sample.s) >= kReachAlong) continue;
+    if (!(sample.r > 1e-3) || sample.r > kFitReachBehind || std::abs(sample.s) >= kFitReachAlong) continue;
     const FrontFrame frame = frame_at(front, foot);
     sample.row = rows[node.index()];
     const Vec3 du = opening[node] / std::sqrt(foot.distance);
@@ -193,8 +183,8 @@ bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings,
     right += w * row * sample.rate.transpose();
   }
   for (int k = 1; k < 4; ++k)
-    normal(k, k) += kRidge[k - 1];
-  if (galerkin_openings) normal(3, 3) += kGalerkinRidge;
+    normal(k, k) += kFitRidge[k - 1];
+  if (galerkin_openings) normal(3, 3) += kFitRidgeGalerkin;
   rate = normal.ldlt().solve(right).row(0).transpose();
   return rate.allFinite();
 }

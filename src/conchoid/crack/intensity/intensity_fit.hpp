@@ -28,15 +28,6 @@ std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
 std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const Front& front,
                              const std::vector<bool>& on_front);
 
-/// What a piecewise linear Galerkin solution is off by near the front, the same on every mesh however fine
-/// (measured on penny-shaped cracks of 54 … 1536 triangles, docs/verification.md): from the second row on it
-/// is the exact opening of a front that lies kFrontShift × (distance of the first row) behind the true one;
-/// the first row lies kFirstRowExcess above the exact opening where the mesh is regular and scatters with the
-/// mesh pattern, so it counts kFirstRowWeight only.
-inline constexpr double kFrontShift = 0.10;
-inline constexpr double kFirstRowExcess = 1.022;
-inline constexpr double kFirstRowWeight = 0.02;
-
 /// One opening sample behind a front node; lengths divided by the local front edge length h.
 struct OpeningSample {
   int row = 1;               ///< row of nodes it belongs to

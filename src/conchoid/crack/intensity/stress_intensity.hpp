@@ -31,7 +31,7 @@ struct SifSettings {
   SifMethod method = SifMethod::two_point;
   SifConvention convention = SifConvention::full_opening;
   /// The openings are those of a piecewise linear Galerkin solution, whose known deviation near the front is
-  /// taken out by two_point (kFrontShift and kFirstRowExcess in intensity_fit.hpp). false: they are exact
+  /// taken out by two_point (kFrontShift and kFirstRowExcess in length_factors.hpp). false: they are exact
   /// values of the opening.
   bool galerkin_openings = true;
 };

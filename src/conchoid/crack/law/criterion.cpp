@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {
@@ -50,10 +52,6 @@ Vec3 with_compressive_factor(const Vec3& K, double factor) {
   return compression > factor * tension ? Vec3(reversed / factor) : K;
 }
 
-Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle) {
-  return std::cos(angle) * e2 + std::sin(angle) * e1;
-}
-
 double rayleigh_speed(const ElasticConstants& m, double density, RayleighFormula formula) {
   const double shear_speed = std::sqrt(m.shear_modulus() / density);
   if (formula == RayleighFormula::published) return 0.9 * shear_speed;
@@ -69,7 +67,7 @@ double rayleigh_speed(const ElasticConstants& m, double density, RayleighFormula
   return shear_speed * std::sqrt(0.5 * (low + high));
 }
 
-double toughness_turn(double fall, double effective_intensity, double toughness) {
+double toughness_deflection(double fall, double effective_intensity, double toughness) {
   if (fall == 0 || !(effective_intensity > toughness)) return 0;
   const double widest =
       std::min(2 * std::acos(std::cbrt(toughness / effective_intensity)), std::acos(1.0 / 3));

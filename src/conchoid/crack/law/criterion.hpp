@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 
@@ -30,9 +28,6 @@ double hoop_intensity(const Vec3& K, double angle);
 /// the place of K.
 Vec3 with_compressive_factor(const Vec3& K, double factor);
 
-/// cosθ e2 + sinθ e1: unit direction at angle θ.
-Vec3 direction_at(const Vec3& e1, const Vec3& e2, double angle);
-
 /// exact: root of the characteristic equation (2−ξ²)² = 4 √(1−ξ²) √(1−η ξ²), ξ = c_R/c_S, η = (1−2ν)/(2−2ν).
 /// published: 0.9 √(μ/ρ).
 enum class RayleighFormula { exact, published };
@@ -40,13 +35,7 @@ enum class RayleighFormula { exact, published };
 double rayleigh_speed(const ElasticConstants& m, double density,
                       RayleighFormula formula = RayleighFormula::exact);
 
-/// Slowest motion of a point that moves at all, as a share of c_R.
-inline constexpr double kLeastSpeedFraction = 0.1;
-
-/// × r̄: length over which a change of toughness turns the crack.
-inline constexpr double kTurnLength = 0.5 / std::numbers::pi;
-
-/// Turn of a front point's direction towards falling toughness (after Hahn & Wojtan 2015): within the angles
+/// Deflection of a front point towards falling toughness (after Hahn & Wojtan 2015): within the angles
 /// at which the hoop intensity, taken as K_eff cos³(δ/2) around the hoop direction, still reaches K_c, by the
 /// share s/√(1+s²) of them, s the relative fall of K_c over r̄/2π across the direction (of a wave of
 /// wavelength r̄: its amplitude):
@@ -54,7 +43,7 @@ inline constexpr double kTurnLength = 0.5 / std::numbers::pi;
 ///     (S8)
 /// @param fall  s > 0: towards growing angles
 /// @return δ [rad], 0 for K_eff ≤ K_c
-double toughness_turn(double fall, double effective_intensity, double toughness);
+double toughness_deflection(double fall, double effective_intensity, double toughness);
 
 /// Length by which a front point advances in one frame of Δt = r̄/c_R:  r̄ max(0.1, 1 − K_c²/K_eff²) if K_eff ≥
 /// K_c, else 0 [m].

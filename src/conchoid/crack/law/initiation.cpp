@@ -5,23 +5,17 @@
 #include <limits>
 #include <numbers>
 
+#include "conchoid/crack/length_factors.hpp"
+
 namespace conchoid {
 
 namespace {
-
-constexpr double kEqual = 1e-3;          ///< relative difference in severity that does not count
-constexpr double kPerpendicular = 1e-6;  ///< cosine below which a direction does not fix a sign
-constexpr double kEquallyRemote = 1e-6;  ///< relative difference in remoteness that does not count
-constexpr double kOutward = 0.1;         ///< × radius, how far outside of the surface the disc's centre lies
-constexpr double kBeneath = 1.15;        ///< × radius, how far beneath a crack's face a branch's centre lies
-constexpr double kClear = 0.95;          ///< × radius, from a branch's centre to all crack nodes
-constexpr int kRings = 2;
 
 /// ±v on the positive side of the first reference that is not perpendicular to it.
 Vec3 with_fixed_sign(const Vec3& v, const std::array<Vec3, 3>& references) {
   for (const Vec3& reference : references) {
     const double c = v.dot(reference);
-    if (std::abs(c) > kPerpendicular * v.norm() * reference.norm()) return c > 0 ? v : Vec3(-v);
+    if (std::abs(c) > kPerpendicularCosine * v.norm() * reference.norm()) return c > 0 ? v : Vec3(-v);
   }
   return v;
 }
@@ -43,7 +37,7 @@ CrackSite make_site(const InitiationCandidate& c, double radius) {
   site.side = with_fixed_sign(cross(site.normal, site.inward), references);
   site.radius = radius;
   // no node of the disc lies in the surface itself
-  site.center += (c.on_crack ? kBeneath : -kOutward) * radius * site.inward;
+  site.center += (c.on_crack ? kBranchDepth : -kDiscOutside) * radius * site.inward;
   site.severity = c.principal_stress / c.strength;
   return site;
 }
@@ -60,13 +54,15 @@ auto next_candidate(const std::vector<InitiationCandidate>& left) {
   double largest = 0;
   for (const auto& c : left)
     largest = std::max(largest, severity(c));
-  const auto is_equal = [&](const InitiationCandidate& c) { return severity(c) >= (1 - kEqual) * largest; };
+  const auto is_equal = [&](const InitiationCandidate& c) {
+    return severity(c) >= (1 - kEqualSeverity) * largest;
+  };
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& c : left)
     if (is_equal(c)) nearest = std::min(nearest, c.remoteness);
   auto best = left.end();
   for (auto it = left.begin(); it != left.end(); ++it)
-    if (is_equal(*it) && it->remoteness <= (1 + kEquallyRemote) * nearest &&
+    if (is_equal(*it) && it->remoteness <= (1 + kEqualRemoteness) * nearest &&
         (best == left.end() || it->triangle < best->triangle))
       best = it;
   return best;
@@ -80,7 +76,8 @@ std::vector<CrackSite> choose_sites(const std::vector<InitiationCandidate>& cand
   const auto is_free = [&](const InitiationCandidate& c) {
     if (!c.on_crack) return !closer_than(settings.min_distance, c.position, crack_nodes);
     return !closer_than(settings.min_distance, c.position, front_nodes) &&
-           !closer_than(kClear * settings.resolution, make_site(c, settings.resolution).center, crack_nodes);
+           !closer_than(kBranchClearance * settings.resolution, make_site(c, settings.resolution).center,
+                        crack_nodes);
   };
   std::vector<InitiationCandidate> left;
   for (const auto& c : candidates)
@@ -100,10 +97,10 @@ std::vector<CrackSite> choose_sites(const std::vector<InitiationCandidate>& cand
 TriMesh disc_sheet(const CrackSite& site) {
   TriMesh mesh;
   mesh.positions.push_back(site.center);
-  for (int k = 1; k <= kRings; ++k)
+  for (int k = 1; k <= kDiscRings; ++k)
     for (int j = 0; j < 6 * k; ++j) {
       const double phi = 2 * std::numbers::pi * j / (6 * k);
-      mesh.positions.push_back(site.center + site.radius * k / kRings *
+      mesh.positions.push_back(site.center + site.radius * k / kDiscRings *
                                                  (std::cos(phi) * site.inward + std::sin(phi) * site.side));
     }
   const bool turned = cross(site.inward, site.side).dot(site.normal) < 0;
@@ -113,7 +110,7 @@ TriMesh disc_sheet(const CrackSite& site) {
   const auto add = [&](NodeId a, NodeId b, NodeId c) {
     mesh.corners.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
   };
-  for (int k = 1; k <= kRings; ++k)
+  for (int k = 1; k <= kDiscRings; ++k)
     for (int sector = 0; sector < 6; ++sector)
       for (int j = 0; j < k; ++j) {
         const int out = sector * k + j, in = sector * (k - 1) + j;

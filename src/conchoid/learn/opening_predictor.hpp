@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "conchoid/learn/sample.hpp"
+
+namespace conchoid {
+
+/// Predicted opening of one sample.
+struct OpeningPrediction {
+  Vec3 opening = Vec3::Zero();  ///< Δu [m] in the front frame of frame n−1
+  Vec3 spread = Vec3::Zero();   ///< its standard deviation [m]; 0 where the predictor states none
+  bool in_range = true;         ///< false: asked beyond what it was trained on
+};
+
+/// Predicts openings from what was known in the frame before: a trained regressor, or a closed form.
+class OpeningPredictor {
+ public:
+  virtual ~OpeningPredictor() = default;
+  /// As reports name it.
+  virtual std::string_view name() const = 0;
+  /// One prediction per sample. Uses everything of the samples but their opening.
+  virtual std::vector<OpeningPrediction> predict_openings(const SampleSet& samples) const = 0;
+};
+
+/// "K stays as it is": the closed-form inverse of the displacement correlation (steady_opening). No training.
+const OpeningPredictor& steady_predictor();
+
+}  // namespace conchoid

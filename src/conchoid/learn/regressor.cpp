@@ -1,0 +1,97 @@
+#include "conchoid/learn/regressor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/learn/regressor_file.hpp"
+
+namespace conchoid {
+namespace {
+
+/// Whether a feature lies within the range of the training; a physically scaled copy differs by round-off and
+/// still does.
+bool within(double x, const FeatureRange& range) {
+  const double slack = 1e-9 * std::max(std::abs(range.minimum), std::abs(range.maximum));
+  return x >= range.minimum - slack && x <= range.maximum + slack;
+}
+
+void require_finite(const FeatureMatrix& matrix, std::string_view kind) {
+  for (const double value : matrix.values)
+    if (!std::isfinite(value))
+      throw InputError(
+          std::string(kind) +
+          ": a feature is not a finite number; check the state of the crack it was computed from");
+}
+
+}  // namespace
+
+Prediction Regressor::predict(std::span<const double> row) const {
+  return predict(FeatureMatrix{record_.features, row.size(), {row.begin(), row.end()}}).front();
+}
+
+std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {
+  if (matrix.set != record_.features || matrix.columns != record_.ranges.size())
+    throw InputError("the " + std::string(name()) + " was trained with feature set " +
+                     std::string(conchoid::name(record_.features)) + ", the data are of " +
+                     std::string(conchoid::name(matrix.set)) + " (" + std::to_string(matrix.columns) +
+                     " features); compute the features of its own set or train another one");
+  require_finite(matrix, name());
+  std::vector<Prediction> result(matrix.rows());
+  parallel_for(result.size(), 256, [&](std::size_t begin, std::size_t end) {
+    predict_standardised(matrix, begin, end, std::span(result).subspan(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      for (int mode = 0; mode < 3; ++mode) {
+        result[i].mean[mode] = record_.label_mean[mode] + record_.label_scale[mode] * result[i].mean[mode];
+        result[i].spread[mode] = record_.label_scale[mode] * result[i].spread[mode];
+      }
+      for (std::size_t c = 0; c < matrix.columns; ++c)
+        if (!within(matrix.row(i)[c], record_.ranges[c])) result[i].in_range = false;
+    }
+  });
+  return result;
+}
+
+std::vector<OpeningPrediction> Regressor::predict_openings(const SampleSet& samples) const {
+  const FeatureSet set = record_.features;
+  const std::vector<Prediction> labels = predict(feature_matrix(samples, set));
+  std::vector<OpeningPrediction> result(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample s = samples[i];
+    result[i] = {opening_from_label(s, set, labels[i].mean), opening_spread(s, set, labels[i].spread),
+                 labels[i].in_range};
+  }
+  return result;
+}
+
+std::vector<std::string> Regressor::out_of_range(std::span<const double> row) const {
+  const std::vector<std::string> names = feature_names(record_.features);
+  std::vector<std::string> result;
+  for (std::size_t c = 0; c < std::min(row.size(), record_.ranges.size()); ++c) {
+    const FeatureRange& range = record_.ranges[c];
+    if (within(row[c], range)) continue;
+    std::ostringstream text;
+    text << names[c] << " = " << row[c] << " (trained on " << range.minimum << " ... " << range.maximum
+         << ")";
+    result.push_back(text.str());
+  }
+  return result;
+}
+
+std::string Regressor::file_bytes() const {
+  ByteWriter fit;
+  write_fit(fit);
+  return regressor_bytes(name(), record_, settings_json(), fit.bytes());
+}
+
+void Regressor::save(const std::filesystem::path& file) const {
+  write_bytes(file, file_bytes());
+}
+
+std::uint64_t Regressor::content_hash() const {
+  return hash_bytes(file_bytes());
+}
+
+}  // namespace conchoid

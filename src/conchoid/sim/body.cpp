@@ -1,0 +1,102 @@
+#include "conchoid/sim/body.hpp"
+
+#include "conchoid/formats/formats.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/remesh/remesh.hpp"
+#include "conchoid/remesh/validate.hpp"
+
+namespace conchoid {
+namespace {
+
+void scale(TriMesh& mesh, double factor) {
+  for (Vec3& x : mesh.positions)
+    x = factor * x;
+}
+
+// The detailed surface and everything else at their final size; boundary elements by remeshing it.
+Body with_settings(Body body, const BodySettings& settings) {
+  scale(body.detailed, settings.scale);
+  for (TriMesh& crack : body.cracks)
+    scale(crack, settings.scale);
+  body.surface = body.detailed;
+  if (!settings.remesh || body.infinite()) return body;
+  TriMesh elements = remesh(body.detailed, *settings.remesh);
+  return with_elements(std::move(body), std::move(elements));
+}
+
+SurfaceAttributes attributes_of(const SurfaceAttributes& all, const std::vector<TriId>& faces) {
+  SurfaceAttributes out;
+  out.materials = all.materials;
+  for (const TriId t : faces) {
+    if (!all.normal.empty()) out.normal.push_back(all.normal[t.index()]);
+    if (!all.uv.empty()) out.uv.push_back(all.uv[t.index()]);
+    if (!all.material.empty()) out.material.push_back(all.material[t.index()]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Body with_elements(Body body, TriMesh surface) {
+  const ClosestPointTree tree(body.surface);
+  const IdVector<TriId, int> region_of = region_of_triangles(body.surface, body.regions);
+  for (Region& r : body.regions)
+    r.triangles.clear();
+  if (!body.regions.empty())
+    for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+      const int region = region_of[tree.closest(centroid(surface, TriId(t))).triangle];
+      if (region >= 0) body.regions[region].triangles.push_back(TriId(t));
+    }
+  body.surface = std::move(surface);
+  return body;
+}
+
+Body body_from_file(const std::filesystem::path& path, const BodySettings& settings) {
+  AttributedMesh read = read_surface(path);
+  require_valid_body(read.mesh, path.string());
+  Body body;
+  body.name = path.string();
+  body.detailed = std::move(read.mesh);
+  body.attributes = std::move(read.attributes);
+  return with_settings(std::move(body), settings);
+}
+
+Body body_from_model(const std::string& name, const BodySettings& settings) {
+  BodyModel model = built_in_model(name);
+  Body body;
+  body.name = name;
+  body.detailed = std::move(model.mesh);
+  body.regions = std::move(model.regions);
+  if (!model.crack.corners.empty()) body.cracks.push_back(std::move(model.crack));
+  return with_settings(std::move(body), settings);
+}
+
+Body body_from_fragment(const Fragment& fragment, const MaterialFrame& material,
+                        const BodySettings& settings) {
+  const bool slits = !fragment.unfinished.solid.corners.empty();
+  Body body;
+  body.name = "piece";
+  body.detailed = slits ? fragment.unfinished.solid : fragment.mesh;
+  std::vector<TriId> faces = fragment.unfinished.solid_face;
+  if (!slits)
+    for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t)
+      faces.emplace_back(t);
+  require_valid_body(body.detailed, body.name);
+  body.attributes = attributes_of(fragment.attributes, faces);
+  body.regions = {{"original", {}}, {"fracture", {}}};
+  for (std::size_t t = 0; t < faces.size(); ++t)
+    body.regions[fragment.face_kind[faces[t].index()] == FaceKind::fracture ? 1 : 0].triangles.push_back(
+        TriId(t));
+  body.cracks = fragment.unfinished.sheets;
+  body.material = material;
+  return with_settings(std::move(body), settings);
+}
+
+MaterialFrame frame_of_pieces(const Body& body) {
+  MaterialFrame frame = body.material;
+  if (!frame.center) frame.center = bounding_box(body.detailed).center();
+  return frame;
+}
+
+}  // namespace conchoid

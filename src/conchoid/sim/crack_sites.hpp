@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/bem/cracked_body.hpp"
+#include "conchoid/crack/law/initiation.hpp"
+#include "conchoid/sim/crack_state.hpp"
+#include "conchoid/sim/prepared_body.hpp"
+
+namespace conchoid {
+
+/// Where new cracks start under the stress as last solved: on free triangles of the body's surface that no
+/// crack cuts, or as branches on faces of cracks away from their fronts, where it exceeds the strength most.
+/// None starts where the displacement is prescribed.
+std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const CrackState& crack,
+                                        const CrackedBody& body, std::size_t most);
+
+}  // namespace conchoid

@@ -1,0 +1,359 @@
+#include "conchoid/sim/fracture.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/law/hoop_stress_law.hpp"
+#include "conchoid/intersect/unfold.hpp"
+#include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/surface/separation.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
+constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
+constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
+constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
+
+CrackSheet initial_sheet(const PreparedBody& body) {
+  CrackSheet sheet;
+  for (const TriMesh& crack : body.cracks)
+    append_part(sheet, oriented_like(sheet, crack));
+  return sheet;
+}
+
+std::shared_ptr<const GrowthLaw> hoop_stress_law(const MaterialSpec& material, const RunSpec& run) {
+  const auto factor =
+      run.published_compression ? std::optional(material.compressive_factor) : std::optional<double>();
+  return std::make_shared<HoopStressLaw>(material.elastic(), factor);
+}
+
+ToughnessField toughness_field(const PreparedBody& body) {
+  return [field = body.toughness, K_c = body.material.toughness](const Vec3& x) {
+    const FieldSample factor = field.at(x);
+    return Toughness{K_c * factor.value, K_c * factor.gradient};
+  };
+}
+
+class Clock {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+// On the heap and never moved: its parts refer to each other.
+struct Fracture::State {
+  std::shared_ptr<const PreparedBody> body;
+  RunSpec settings;
+  ElasticConstants m;
+  BemOpening bem;
+  std::unique_ptr<OpeningSource> predictor;  // none: bem itself
+  FrontHistory history;
+  CrackState crack;
+  FineFront fine;                    // moves the cracks, h = r̄/10 whatever is to be seen
+  std::optional<FineFront> visible;  // none: fine itself
+  GrowthModel growth;
+  double rayleigh_speed;
+  std::vector<FractureObserver*> observers;
+
+  bool started = false;
+  int frame = 0;
+  std::optional<StopReason> stop;
+  std::vector<FrontOpening> openings;
+  std::vector<FrontDecision> decisions;
+  double largest_intensity = 0;  // K_eff of the frame
+  int new_cracks = 0;            // that started in the run
+  int carried = 0;               // frames in a row that could not be solved
+  bool warned = false;           // of predictions beyond the training
+
+  State(std::shared_ptr<const PreparedBody> prepared, LoadCase loads, const RunSpec& run,
+        const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
+      : body(std::move(prepared)),
+        settings(run),
+        m(body->material.elastic()),
+        bem(body->elastic, std::move(loads), sif_settings(run)),
+        predictor(source ? source(bem) : nullptr),
+        history(body->material, body->toughness, body->crack_edge),
+        crack{initial_sheet(*body), {}, {}, {}, {}, {}},
+        fine(crack.sheet, {.resolution = body->crack_edge, .spacing = kDrivingSpacing * body->crack_edge}),
+        growth{law ? std::move(law) : hoop_stress_law(body->material, run), toughness_field(*body)},
+        rayleigh_speed(conchoid::rayleigh_speed(
+            m, body->material.density,
+            run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
+    crack.cut = whole_surface(body->surface);
+    if (std::abs(body->surface_edge / body->crack_edge / kDrivingSpacing - 1) > kSameSpacing)
+      visible.emplace(crack.sheet,
+                      FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
+  }
+
+  bool solved() const { return !predictor && carried == 0; }
+  bool separated() const { return !body->infinite() && separates(crack.cut); }
+
+  void start(StepReport& report);
+  void start_cracks(StepReport& report);
+  void compute_openings(StepReport& report);
+  std::vector<FrontStep> decide(StepReport& report);
+  void compute_frame(const Fracture& self, StepReport& report);
+};
+
+// One new crack at a time, where the stress as last solved exceeds the strength most.
+void Fracture::State::start_cracks(StepReport& report) {
+  if (new_cracks >= settings.max_cracks) return;
+  for (const CrackSite& site : find_crack_sites(*body, crack, bem.body(), 1)) {
+    append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(site)));
+    ++new_cracks;
+    ++report.new_cracks;
+  }
+  fine.append_parts(crack.sheet);
+  if (visible) visible->append_parts(crack.sheet);
+}
+
+void Fracture::State::start(StepReport& report) {
+  started = true;
+  Clock clock;
+  if (body->cracks.empty() && settings.max_cracks > 0) {
+    bem.solve(crack.cut);
+    report.start_seconds = clock.lap();
+    start_cracks(report);
+  }
+  if (crack.sheet.fronts.empty()) {
+    stop = StopReason::intact;
+    return;
+  }
+  update_crack(crack, body->surface, body->crack_edge);
+  if (separated()) stop = StopReason::separated;
+}
+
+// A later frame whose system is singular is carried, a few times in a row.
+void Fracture::State::compute_openings(StepReport& report) {
+  report.source = predictor && report.frame > 1 ? predictor->name() : bem.name();
+  if (predictor) {
+    openings = predictor->open(crack);
+    return;
+  }
+  try {
+    openings = bem.open(crack);
+    carried = 0;
+    if (const ContactReport& contact = bem.body().contact(); !contact.converged)
+      report.warnings.push_back(fmt::format("frame {}: {}", report.frame, contact_warning(contact)));
+  } catch (const SingularSystem& error) {
+    if (report.frame == 1 || carried == kMostCarried) throw;
+    if (carried++ == 0)
+      report.warnings.push_back(fmt::format("frame {}: {}; the front goes straight on with K as last solved",
+                                            report.frame, error.what()));
+    report.source = "carried";
+    openings = carried_openings(crack, history, *growth.law);
+  }
+}
+
+// What every point is about to do.
+std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
+  const double r = body->crack_edge;
+  std::vector<FrontStep> steps;
+  decisions.clear();
+  largest_intensity = 0;
+  for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    const FrontPoint& point = crack.points[i];
+    const FrontOpening& o = openings[i];
+    FrontDecision d;
+    d.drive = growth.law->drive(o.intensity);
+    d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
+    const bool arrested = crack.sheet.state[point.node] == FrontState::arrested;
+    d.length = arrested ? 0 : growth.law->length(d.drive, d.toughness, r);
+    const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
+    d.angle = ligament ? 0 : growth.law->direction(o.intensity);
+    largest_intensity = std::max(largest_intensity, d.drive);
+    // Where the toughness varies every marker decides for itself.
+    if (d.length > 0 || (!arrested && d.drive > 0 && !body->toughness.homogeneous()))
+      steps.push_back({point.node, point.frame, d.angle, d.drive});
+    if (!o.in_range && !warned) {
+      warned = true;
+      report.warnings.push_back(
+          fmt::format("frame {}: the {} is asked beyond its training data (K_I = {:.3g}, K_II = {:.3g}, "
+                      "K_III = {:.3g} Pa√m); train it on "
+                      "a database that covers such loads",
+                      report.frame, report.source, o.intensity[0], o.intensity[1], o.intensity[2]));
+    }
+    decisions.push_back(d);
+  }
+  for (const FrontPoint& point : ligament_points(crack))
+    steps.push_back(
+        {point.node, point.frame, 0,
+         std::max(largest_intensity,
+                  kLigamentIntensity * growth.toughness(crack.sheet.mesh.positions[point.node]).value)});
+  report.largest_intensity = largest_intensity;
+  return steps;
+}
+
+void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
+  Clock clock;
+  report.front_points = crack.points.size();
+  compute_openings(report);
+  report.opening_seconds = clock.lap();
+  frame = report.frame;
+  const std::vector<FrontStep> steps = decide(report);
+  for (FractureObserver* observer : observers)
+    observer->on_opening(self);
+  if (!predictor) history.remember(crack, openings);
+  report.other_seconds = clock.lap();
+  const std::size_t fronts_before = crack.sheet.fronts.size();
+  if (solved()) start_cracks(report);
+  const bool new_crack = crack.sheet.fronts.size() > fronts_before;
+  const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
+  if (!steps.empty())
+    advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,
+                   visible ? &*visible : nullptr);
+  if (!steps.empty() || new_crack) update_crack(crack, body->surface, body->crack_edge);
+  report.fracture_seconds = clock.lap();
+  report.crack_triangles = crack.trimmed.triangle_count();
+  const bool grown = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count() > before;
+  const bool moved = body->toughness.homogeneous() ? !steps.empty() : grown;
+  if (!moved && !new_crack)
+    stop = StopReason::arrested;
+  else if (separated())
+    stop = StopReason::separated;
+}
+
+Fracture::Fracture(std::shared_ptr<const PreparedBody> body, LoadCase load, const RunSpec& settings,
+                   const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
+    : state_(std::make_unique<State>(std::move(body), std::move(load), settings, source, std::move(law))) {}
+Fracture::~Fracture() = default;
+Fracture::Fracture(Fracture&&) noexcept = default;
+Fracture& Fracture::operator=(Fracture&&) noexcept = default;
+
+StepReport Fracture::step() {
+  State& s = *state_;
+  StepReport report;
+  const bool starts = !s.started;
+  if (starts) s.start(report);
+  if (s.stop) {
+    report.frame = s.frame;
+    report.stop = s.stop;
+    if (starts)
+      for (FractureObserver* observer : s.observers)
+        observer->on_step(*this, report);
+    return report;
+  }
+  report.frame = s.frame + 1;
+  for (FractureObserver* observer : s.observers)
+    observer->on_frame(*this, report.frame);
+  try {
+    s.compute_frame(*this, report);
+  } catch (const SingularSystem& error) {
+    if (report.frame == 1) throw;
+    report.warnings.push_back(fmt::format("frame {}: {}; the run ends here and keeps the frames before",
+                                          report.frame, error.what()));
+    s.stop = StopReason::singular;
+  }
+  report.stop = s.stop;
+  report.moving = !s.stop;
+  for (FractureObserver* observer : s.observers)
+    observer->on_step(*this, report);
+  return report;
+}
+
+void Fracture::set_load(LoadCase load) {
+  State& s = *state_;
+  s.bem.set_load(std::move(load));
+  if (s.stop != StopReason::arrested && s.stop != StopReason::intact) return;
+  if (s.stop == StopReason::intact) s.started = false;  // a crack is looked for again
+  s.stop.reset();
+}
+
+void Fracture::add_observer(FractureObserver& observer) {
+  state_->observers.push_back(&observer);
+}
+
+void Fracture::keep_rows(RowStore* store) {
+  state_->bem.keep_rows(store);
+}
+
+const PreparedBody& Fracture::body() const {
+  return *state_->body;
+}
+const std::shared_ptr<const PreparedBody>& Fracture::shared_body() const {
+  return state_->body;
+}
+const RunSpec& Fracture::settings() const {
+  return state_->settings;
+}
+const LoadCase& Fracture::load() const {
+  return state_->bem.body().load();
+}
+int Fracture::frame() const {
+  return state_->frame;
+}
+std::optional<StopReason> Fracture::stop() const {
+  return state_->stop;
+}
+const CrackState& Fracture::crack() const {
+  return state_->crack;
+}
+const std::vector<FrontOpening>& Fracture::openings() const {
+  return state_->openings;
+}
+const std::vector<FrontDecision>& Fracture::decisions() const {
+  return state_->decisions;
+}
+bool Fracture::solved() const {
+  return state_->predictor ? state_->frame <= 1 : state_->solved();
+}
+const CrackedBody& Fracture::solution() const {
+  return state_->bem.body();
+}
+const FrontHistory& Fracture::history() const {
+  return state_->history;
+}
+double Fracture::rayleigh_speed() const {
+  return state_->rayleigh_speed;
+}
+std::size_t Fracture::cracks() const {
+  return state_->body->cracks.size() + static_cast<std::size_t>(state_->new_cracks);
+}
+
+std::vector<TriMesh> Fracture::visible_sheets() const {
+  FineFront finished = state_->visible ? *state_->visible : state_->fine;
+  if (!state_->crack.sheet.fronts.empty()) finished.finish();
+  const TriMesh& all = finished.surface();
+  const std::vector<int> part = connected_parts(all);
+  std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+  std::vector<NodeId> moved(all.node_count());
+  for (std::size_t i = 0; i < all.node_count(); ++i)
+    moved[i] = sheets[part[i]].positions.add(all.positions[NodeId(i)]);
+  for (const auto& c : all.corners)
+    sheets[part[c[0].index()]].corners.push_back(
+        {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+  for (TriMesh& sheet : sheets)
+    sheet = unfolded_part(sheet);
+  std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
+  return sheets;
+}
+
+StopReason run_frames(Fracture& fracture, int limit, const std::function<void()>& progress) {
+  for (;;) {
+    if (interrupted()) return StopReason::interrupted;
+    const StepReport step = fracture.step();
+    if (progress) progress();
+    if (step.stop) return *step.stop;
+    if (fracture.frame() >= limit) return StopReason::frame_limit;
+  }
+}
+
+}  // namespace conchoid

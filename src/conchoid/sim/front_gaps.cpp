@@ -1,0 +1,68 @@
+#include "conchoid/sim/front_gaps.hpp"
+
+#include <optional>
+#include <unordered_map>
+
+namespace conchoid {
+
+std::vector<PointChain> point_chains(const CrackState& crack) {
+  std::unordered_map<NodeId, std::size_t> point_at;  // by node of the cut complex
+  for (std::size_t i = 0; i < crack.points.size(); ++i)
+    point_at[crack.node_in_cut[crack.points[i].node]] = i;
+  std::vector<PointChain> chains;
+  for (const Front& front : crack.fronts) {
+    PointChain chain{{}, front.closed};
+    for (const NodeId node : front.nodes)  // the ends at the body's surface are no points
+      if (const auto found = point_at.find(node); found != point_at.end())
+        chain.points.push_back(found->second);
+    if (!chain.points.empty()) chains.push_back(std::move(chain));
+  }
+  return chains;
+}
+
+namespace {
+
+// The point `step` places along the chain from place `at`; none beyond the end of an open one.
+std::optional<std::size_t> neighbour(const PointChain& chain, std::size_t at, std::ptrdiff_t step) {
+  const auto n = static_cast<std::ptrdiff_t>(chain.points.size());
+  std::ptrdiff_t to = static_cast<std::ptrdiff_t>(at) + step;
+  if (chain.closed) to = (to % n + n) % n;
+  if (to < 0 || to >= n) return {};
+  return chain.points[static_cast<std::size_t>(to)];
+}
+
+// Mean K of the nearest points of the chain that have one.
+std::optional<Vec3> nearest_intensity(const PointChain& chain, std::size_t at, const std::vector<char>& known,
+                                      const std::vector<FrontOpening>& openings) {
+  const auto n = static_cast<std::ptrdiff_t>(chain.points.size());
+  for (std::ptrdiff_t step = 1; step < n; ++step) {
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (const std::ptrdiff_t side : {step, -step})
+      if (const auto point = neighbour(chain, at, side); point && known[*point]) {
+        sum += openings[*point].intensity;
+        ++count;
+      }
+    if (count > 0) return sum / count;
+  }
+  return {};
+}
+
+}  // namespace
+
+void fill_gaps(const std::vector<PointChain>& chains, std::vector<FrontOpening>& openings) {
+  std::vector<char> known;
+  for (const FrontOpening& opening : openings)
+    known.push_back(opening.known);
+  for (const PointChain& chain : chains)
+    for (std::size_t at = 0; at < chain.points.size(); ++at) {
+      FrontOpening& opening = openings[chain.points[at]];
+      if (known[chain.points[at]]) continue;
+      if (const auto intensity = nearest_intensity(chain, at, known, openings)) {
+        opening.intensity = opening.node_intensity = *intensity;
+        opening.known = true;
+      }
+    }
+}
+
+}  // namespace conchoid

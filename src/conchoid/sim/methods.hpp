@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "conchoid/learn/regressor.hpp"
+#include "conchoid/sim/opening_source.hpp"
+
+namespace conchoid {
+
+/// What a source of opening is made from. All of it must outlive the source.
+struct MethodContext {
+  BemOpening& bem;
+  const MaterialSpec& material;
+  const PreparedBody& body;
+  SifSettings sif;
+  const Regressor* regressor = nullptr;
+};
+
+/// Where the opening of a run comes from after frame 1, as a user chooses it.
+struct OpeningMethod {
+  std::string name;       ///< as --method and in run.json
+  std::string title;      ///< of a picture of such a run
+  std::string help;       ///< half a sentence
+  std::string regressor;  ///< kind of regressor (learn/regressor_kinds.hpp) that it needs; empty: none
+  /// Predicts without training: `forest evaluate` reports it beside a regressor. May be null.
+  const OpeningPredictor* baseline = nullptr;
+  /// Null where the boundary elements of the context solve every frame.
+  std::function<std::unique_ptr<OpeningSource>(const MethodContext&)> make;
+};
+
+/// bem, steady, and one for every kind of regressor.
+const std::vector<OpeningMethod>& opening_methods();
+/// Throws InputError that lists the known names.
+const OpeningMethod& opening_method(std::string_view name);
+/// Null if there is none of that name.
+const OpeningMethod* find_opening_method(std::string_view name);
+/// Those that predict without training.
+std::vector<const OpeningPredictor*> baseline_predictors();
+
+/// The method of that name, with what it needs. Throws InputError if the name is unknown, if a regressor is missing,
+/// of another kind or not needed, or if it looks at quantities that runs do not record.
+const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor);
+
+}  // namespace conchoid

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conchoid/sim/fracture.hpp"
+#include "conchoid/sim/output_spec.hpp"
+#include "conchoid/surface/contacts.hpp"
+
+namespace conchoid {
+
+/// What a fracture leaves: the detailed body in pieces and the crack surface inside it, in the body's
+/// coordinates.
+struct Pieces {
+  std::vector<Fragment> fragments;  ///< largest first; one if the body holds together
+  std::vector<FragmentContact> contacts;
+  TriMesh crack;  ///< the visible crack surface, trimmed to the body
+  std::vector<std::string> warnings;
+};
+
+/// Cuts the body by its cracks as they stand: pieces with mass, attributes as `output` asks for, and the
+/// cracks that end in them, so that each can be a body of its own (body_from_fragment()). Pieces too small are
+/// joined to neighbours as the run's settings say. The infinite body has no pieces.
+Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output = {});
+
+/// The visible crack surface alone, trimmed to the body: for runs whose pieces nobody asks for.
+TriMesh crack_surface(const Fracture& fracture);
+
+}  // namespace conchoid

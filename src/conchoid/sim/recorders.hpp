@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/io/run_folder.hpp"
+#include "conchoid/learn/sample.hpp"
+#include "conchoid/sim/fracture.hpp"
+
+namespace conchoid {
+
+/// One row of front.csv per front point and frame, in the body's coordinates.
+class FrontRecorder : public FractureObserver {
+ public:
+  void on_opening(const Fracture& fracture) override;
+  const std::vector<FrontRow>& rows() const { return rows_; }
+  std::vector<FrontRow> take() { return std::move(rows_); }
+
+ private:
+  std::vector<FrontRow> rows_;
+};
+
+/// How far the fronts have come.
+class GrowthRecorder : public FractureObserver {
+ public:
+  void on_opening(const Fracture& fracture) override;
+  /// Farthest that any front has travelled [m].
+  double largest() const { return largest_; }
+
+ private:
+  double largest_ = 0;
+};
+
+/// Training samples of a run by boundary elements: front elements paired over two frames. Frames that were
+/// not solved give none, nor do openings that linear elasticity does not know (kLargestOpening).
+class SampleRecorder : public FractureObserver {
+ public:
+  void on_opening(const Fracture& fracture) override;
+  SampleSet take() { return std::move(samples_); }
+
+ private:
+  SampleSet samples_;
+};
+
+/// Frames for ParaView, in the body's coordinates.
+class FrameWriter : public FractureObserver {
+ public:
+  /// @param folder  must outlive the writer; exaggeration  see FrameData
+  FrameWriter(RunFolder& folder, double exaggeration) : folder_(folder), exaggeration_(exaggeration) {}
+  void on_opening(const Fracture& fracture) override;
+
+ private:
+  RunFolder& folder_;
+  double exaggeration_;
+};
+
+}  // namespace conchoid

@@ -1,0 +1,63 @@
+# Installs the build, moves the installed tree elsewhere, builds the programs of consumer/ against it and runs them: one of
+# our own, and the C++ of the README on the scene of the README.
+# Called with -DBUILD=<build folder> -DROOT=<sources of the project> -DGENERATOR=<generator>
+set(work ${BUILD}/tests/structure/install)
+file(REMOVE_RECURSE ${work})
+file(MAKE_DIRECTORY ${work}/consumer)
+function(run)
+  execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${work}/consumer
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGV}\n${output}")
+  endif()
+endfunction()
+
+# readme_block(LANGUAGE RESULT): the first block of that language in the README.
+function(readme_block language result)
+  file(READ ${ROOT}/README.md text)
+  string(FIND "${text}" "```${language}\n" begin)
+  if(begin LESS 0)
+    message(FATAL_ERROR "README.md has no block of ${language}")
+  endif()
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(REGEX REPLACE "^```${language}\n" "" text "${text}")
+  string(FIND "${text}" "```" end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
+file(RENAME ${work}/installed ${work}/moved)
+run(${work}/moved/bin/conchoid --version)
+
+file(GLOB_RECURSE exported ${work}/moved/*.cmake)
+if(NOT exported)
+  message(FATAL_ERROR "no package files in ${work}/moved")
+endif()
+foreach(file ${exported})
+  file(READ ${file} text)
+  foreach(path ${BUILD} ${ROOT} /usr/lib /usr/include)
+    string(FIND "${text}" "${path}" at)
+    if(at GREATER_EQUAL 0)
+      message(FATAL_ERROR "${file} names ${path}, a path of the machine it was built on")
+    endif()
+  endforeach()
+endforeach()
+
+readme_block(toml scene)
+file(WRITE ${work}/consumer/glass.toml "${scene}")
+readme_block(cpp code)
+string(FIND "${code}" "int main(" main)
+if(main LESS 0)  # statements: their includes go to the top, the rest into main()
+  string(REGEX MATCHALL "#include [^\n]*" includes "${code}")
+  string(REGEX REPLACE "#include [^\n]*\n" "" statements "${code}")
+  list(JOIN includes "\n" includes)
+  set(code "${includes}\n\ntemplate <class... T>\nvoid use(const T&...) {}\n\nint main() {\n${statements}}\n")
+endif()
+file(WRITE ${work}/consumer/readme.cpp "${code}")
+
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${ROOT}/tests/structure/consumer -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/moved
+    -DCMAKE_BUILD_TYPE=Release -DREADME_SOURCE=${work}/consumer/readme.cpp)
+run(${CMAKE_COMMAND} --build ${work}/build)
+run(${work}/build/consumer)
+run(${work}/build/readme)
