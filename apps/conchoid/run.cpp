@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "conchoid/bem/body_solver.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/learn/regressor.hpp"
@@ -16,7 +17,7 @@ namespace conchoid {
 namespace {
 
 struct RunCommand {
-  std::string scene, method = "bem", database, out;
+  std::string scene, method = "bem", database, out, solver = body_solver_names().front();
   std::vector<std::string> formats;  ///< empty: the scene's
   int frames = 0;                    ///< 0: the scene's
   bool resume = false;
@@ -68,7 +69,8 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (!command.database.empty()) regressor = load_regressor(command.database);
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor);
-  const Scene scene = read_scene(command.scene);
+  Scene scene = read_scene(command.scene);
+  scene.run.solver = command.solver;
   std::optional<RunDocument> document = finished_run(command, scene, options);
   if (document)
     message(command.out + ": finished already; reported again");
@@ -96,6 +98,13 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
   command->add_option("--method", options->method, "where the crack opening comes from: " + help)
       ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--solver", options->solver,
+          "how the uncracked body is solved: by factors, or by conjugate gradients on products alone, "
+          "which gives the same to rounding and is slower")
+      ->check(CLI::IsMember(body_solver_names()))
       ->capture_default_str();
   command->add_option("--database", options->database,
                       "file written by conchoid forest train, for --method " + trained);

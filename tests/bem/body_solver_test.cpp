@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "conchoid/bem/cracked_body.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/models.hpp"
 
@@ -158,11 +158,9 @@ TEST(BodySolver, SameBitsForEveryNumberOfThreads) {
     const int cells = name == "dense" ? 4 : 2;  // 4: more than one tile
     const TriMesh mesh = box_mesh({1, 1, 1}, cells, cells, cells);
     std::vector<std::vector<double>> all;
-    for (int threads : {1, 2, 5}) {
-      set_thread_count(threads);
-      all.push_back(cracked_answers(mesh, Support::held, {.solver = name}));
-    }
-    set_thread_count(0);
+    for (int threads : {1, 2, 5})
+      all.push_back(ExecutionContext(threads).run(
+          [&] { return cracked_answers(mesh, Support::held, {.solver = name}); }));
     EXPECT_EQ(all[0], all[1]) << name;
     EXPECT_EQ(all[0], all[2]) << name;
   }

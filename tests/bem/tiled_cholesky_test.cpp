@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "conchoid/bem/blas.hpp"
-#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/context.hpp"
 
 namespace conchoid {
 namespace {
@@ -84,12 +84,10 @@ TEST(TiledCholesky, SameBitsForEveryNumberOfThreads) {
   const Eigen::MatrixXd a = random_spd(700);
   std::vector<std::vector<double>> factors;
   for (int threads : {1, 2, 5}) {
-    set_thread_count(threads);
     TiledCholesky tiled = filled(a);
-    ASSERT_TRUE(tiled.factor());
+    ASSERT_TRUE(ExecutionContext(threads).run([&] { return tiled.factor(); }));
     factors.push_back(entries(tiled));
   }
-  set_thread_count(0);
   EXPECT_EQ(factors[0], factors[1]);
   EXPECT_EQ(factors[0], factors[2]);
 }

@@ -2,17 +2,9 @@
 
 #include <cmath>
 
-extern "C" {
-void openblas_set_num_threads(int);
-void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
-}
+extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
 namespace conchoid {
-
-void use_one_blas_thread() {
-  static const bool once = (openblas_set_num_threads(1), true);
-  (void)once;
-}
 
 bool factor_in_place(double* a, std::size_t n, std::size_t lead) {
   if (n == 0) return true;

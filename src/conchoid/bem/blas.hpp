@@ -4,11 +4,7 @@
 
 namespace conchoid {
 
-/// BLAS and LAPACK on one thread each: more would round differently for different thread counts, and the
-/// tasks that call them already use every core. Called before any of them.
-void use_one_blas_thread();
-
-/// Lower Cholesky factor in place of a symmetric matrix, column-major, `lead` apart; only the lower triangle
+/// By LAPACK, inside a OneBlasThread: lower Cholesky factor in place of a symmetric matrix, column-major, `lead` apart; only the lower triangle
 /// is read and written. False when it is not positive definite.
 [[nodiscard]] bool factor_in_place(double* a, std::size_t n, std::size_t lead);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "conchoid/bem/blas.hpp"
+#include "conchoid/core/blas_threads.hpp"
 
 extern "C" void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda,
                         double* b, const int* ldb, int* info);
@@ -22,7 +23,7 @@ void BorderedCholesky::reserve(std::size_t n) {
 }
 
 bool BorderedCholesky::append(const std::vector<double>& coupling, const std::vector<double>& diagonal) {
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   std::size_t m = 0;
   while (m * m < diagonal.size())
     ++m;
@@ -54,7 +55,7 @@ void BorderedCholesky::truncate(std::size_t n) {
 
 void BorderedCholesky::solve(double* b, std::size_t count) const {
   if (n_ == 0 || count == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   const int n = static_cast<int>(n_), lead = static_cast<int>(capacity_), columns = static_cast<int>(count);
   for (std::size_t i = 0; i < n_ * count; ++i)
     b[i] *= scale_;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "conchoid/bem/blas.hpp"
 #include "conchoid/bem/row_store.hpp"
+#include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 
@@ -128,7 +128,7 @@ DenseMatrix CrackSystem::couplings(std::size_t first) const {
     for (std::size_t i = 0; i < nq; ++i)
       x[c * n + i] = -x[c * n + i];
   body_->solver().solve(x.data(), columns);
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
     std::vector<double> rows;
     for (std::size_t f = begin; f < end; ++f)
@@ -187,7 +187,7 @@ std::vector<double> CrackSystem::right_hand_side(const LoadCase& load) const {
 void CrackSystem::reduce(const double* x, std::vector<double>& g) const {
   const int n = static_cast<int>(body_->discretisation().unknowns());
   if (n == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t f = 0; f < functions_.size(); ++f)
     cblas_dgemv(CblasRowMajor, CblasNoTrans, 3, n, -1.0, functions_[f].rows.data.data(), n, x, 1, 1.0,
                 &g[3 * f], 1);
@@ -198,7 +198,7 @@ std::vector<double> CrackSystem::forces_on_body(const std::vector<double>& a) co
   std::vector<double> out(body.unknowns(), 0.0);
   const int n = static_cast<int>(out.size());
   if (n == 0) return out;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t f = 0; f < functions_.size(); ++f)
     cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
                 out.data(), 1);

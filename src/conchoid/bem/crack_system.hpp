@@ -44,7 +44,7 @@ class CrackSystem {
   explicit CrackSystem(std::shared_ptr<const BodyOperator> body);
 
   /// Replaces the crack. Functions whose support did not change keep their rows, in the order they had; new
-  /// ones come after them. Errors: ComputationError when S is singular (a piece has come off).
+  /// ones come after them. Errors: SingularSystem when a piece has come off.
   /// @param store  may be null
   void set_crack(const CutComplex& cut, RowStore* store);
   /// Makes the columns of sources that are not there yet, for every function.

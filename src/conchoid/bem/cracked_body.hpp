@@ -43,12 +43,12 @@ class CrackedBody {
   /// Where the rows of set_crack() are looked for before they are integrated, and kept after; must outlive
   /// the body. None at first.
   void keep_rows(RowStore* store);
-  /// Replaces the crack. Errors: ComputationError when a piece has come off (the system has become singular).
+  /// Replaces the crack. Errors: SingularSystem when a piece has come off.
   void set_crack(const CutComplex& cut);
   /// Replaces the load, on body and crack; call solve() before anything is read. Errors: InputError when it
   /// does not fit; the load is then as before.
   void set_load(LoadCase load);
-  /// Finds opening, displacement and traction. Says so on stderr when contact did not converge.
+  /// Finds opening, displacement and traction; contact() says whether the faces were kept apart.
   void solve();
   /// Openings of several loads on the crack as it stands, as set_load() and solve() would give them; the
   /// body's own load and solution stay.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "conchoid/bem/blas.hpp"
 #include "conchoid/bem/tiled_cholesky.hpp"
+#include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 
@@ -27,7 +27,7 @@ class DenseSolver : public BodySolver {
         V_(nq_),
         S_(nu_),
         W_(nq_ * nu_) {
-    use_one_blas_thread();
+    const OneBlasThread one_blas_thread;
     entries.keep_pairs();
     factor_single_layer(entries);
     assemble_schur_complement(entries);
@@ -84,7 +84,7 @@ class DenseSolver : public BodySolver {
   template <class Task>
   void in_parts(double* vectors, std::size_t count, const Task& task) const {
     if (size() == 0) return;
-    use_one_blas_thread();
+    const OneBlasThread one_blas_thread;
     parallel_for(count, kVectors, [&](std::size_t begin, std::size_t end) {
       double* first = vectors + begin * size();
       task(first, first + nq_, end - begin);

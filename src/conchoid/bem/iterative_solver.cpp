@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "conchoid/bem/blas.hpp"
+#include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 
@@ -86,7 +86,7 @@ class IterativeSolver : public BodySolver {
 
   // Halves of x that are zero cost nothing: the inner iterations apply V alone, the outer ones D.
   void apply_one(const double* x, double* y) const {
-    use_one_blas_thread();
+    const OneBlasThread one_blas_thread;
     const int nq = static_cast<int>(nq_), nu = static_cast<int>(nu_);
     const double *q = x, *u = x + nq_;
     std::fill_n(y, size(), 0.0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "conchoid/bem/blas.hpp"
+#include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
@@ -61,7 +62,7 @@ std::vector<TiledCholesky::Tile> TiledCholesky::tiles() {
 // Right-looking: column of tiles after column of tiles, each followed by the updates it causes.
 bool TiledCholesky::factor() {
   if (n_ == 0) return true;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   scale_ = unit_scale(tile(0, 0)[0]);
   parallel_for(data_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
@@ -98,7 +99,7 @@ bool TiledCholesky::factor() {
 
 void TiledCholesky::solve_lower(double* b, std::size_t count, std::size_t stride) const {
   if (n_ == 0 || count == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t k = 0; k < tiles_; ++k) {
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
@@ -112,7 +113,7 @@ void TiledCholesky::solve_lower(double* b, std::size_t count, std::size_t stride
 
 void TiledCholesky::solve_transposed(double* b, std::size_t count, std::size_t stride) const {
   if (n_ == 0 || count == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t k = tiles_; k-- > 0;) {
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
@@ -126,7 +127,7 @@ void TiledCholesky::solve_transposed(double* b, std::size_t count, std::size_t s
 
 void TiledCholesky::apply_lower(double* b, std::size_t count, std::size_t stride) const {
   if (n_ == 0 || count == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t k = tiles_; k-- > 0;) {
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
@@ -140,7 +141,7 @@ void TiledCholesky::apply_lower(double* b, std::size_t count, std::size_t stride
 
 void TiledCholesky::apply_transposed(double* b, std::size_t count, std::size_t stride) const {
   if (n_ == 0 || count == 0) return;
-  use_one_blas_thread();
+  const OneBlasThread one_blas_thread;
   for (std::size_t k = 0; k < tiles_; ++k) {
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;

@@ -151,6 +151,8 @@ void Fracture::State::compute_openings(StepReport& report) {
   try {
     openings = bem.open(crack);
     carried = 0;
+    if (const ContactReport& contact = bem.body().contact(); !contact.converged)
+      report.warnings.push_back(fmt::format("frame {}: {}", report.frame, contact_warning(contact)));
   } catch (const SingularSystem& error) {
     if (report.frame == 1 || carried == kMostCarried) throw;
     if (carried++ == 0)

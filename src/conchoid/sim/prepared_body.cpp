@@ -94,10 +94,11 @@ PreparedBody prepare(const Scene& scene, Body body) {
   add_cracks(scene, body.cracks, out);
   if (!(out.crack_edge > 0)) out.crack_edge = mean_boundary_edge(out.cracks.front());
   out.surface_edge = scene.resolution.surface.value_or(out.crack_edge / 20);
-  load_of(scene, out);  // what is wrong with the conditions is said before anything is assembled
-  out.elastic =
-      std::make_shared<const BodyOperator>(out.surface, kinds_of(scene, out), scene.material.elastic(),
-                                           BemSettings{scene.run.quadrature_tolerance, scene.run.contact});
+  // What is wrong with the conditions is said before anything is assembled.
+  const LoadCase load = load_of(scene, out);
+  out.elastic = std::make_shared<const BodyOperator>(
+      out.surface, kinds_of(scene, out), scene.material.elastic(),
+      BemSettings{scene.run.quadrature_tolerance, scene.run.contact, scene.run.solver}, std::span(&load, 1));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -20,6 +21,12 @@ CrackState initial_crack(const PreparedBody& body) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void solve(BemOpening& bem, const CrackState& crack) {
+  bem.solve(crack.cut);
+  if (const ContactReport& contact = bem.body().contact(); !contact.converged)
+    warning(contact_warning(contact));
 }
 
 double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening) {
@@ -40,7 +47,7 @@ SifReport compute_sifs(const Scene& scene) {
   const SifSettings sif = sif_settings(scene.run);
   BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
   const CrackState crack = initial_crack(body);
-  bem.solve(crack.cut);
+  solve(bem, crack);
   SifReport report;
   for (const Front& front : crack.fronts) {
     const auto K =
@@ -63,7 +70,7 @@ StressReport compute_stress(const Scene& scene) {
                      ": the infinite body has no surface to show stress on; use a body with one");
   const PreparedBody body = prepare(scene);
   BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
-  bem.solve(initial_crack(body).cut);
+  solve(bem, initial_crack(body));
   const IdVector<TriId, int> region = region_of_triangles(body.surface, body.regions);
   StressReport report;
   const std::vector<Mat3> stress = bem.body().surface_stress();

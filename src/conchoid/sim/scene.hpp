@@ -89,6 +89,7 @@ struct RunSpec {
   OpeningConvention sif_convention = OpeningConvention::full;
   bool published_compression = false;  ///< with_compressive_factor() before growth, else closed faces
   double quadrature_tolerance = 1e-6;
+  std::string solver = "dense";  ///< of the body (bem/body_solver.hpp); no key of the scene, answers agree
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
   int max_fragments = 0;            ///< 0: no limit
