@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "conchoid/core/bytes.hpp"
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/learn/evaluate.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
@@ -164,12 +164,11 @@ TEST(Ridge, RefusesWhatItCannotLearn) {
 
 TEST(Ridge, GivesTheSameBitsForEveryNumberOfThreads) {
   const TemporaryFolder folder;
-  for (const int threads : {1, 2}) {
-    set_thread_count(threads);
-    RidgeRegression::train(with_law(synthetic_runs(12, 1, 1), 0.3, 0.1), {})
-        .save(folder / std::to_string(threads));
-  }
-  set_thread_count(0);
+  for (const int threads : {1, 2})
+    ExecutionContext(threads).run([&] {
+      RidgeRegression::train(with_law(synthetic_runs(12, 1, 1), 0.3, 0.1), {})
+          .save(folder / std::to_string(threads));
+    });
   EXPECT_EQ(read_bytes(folder / "1"), read_bytes(folder / "2"));
 }
 

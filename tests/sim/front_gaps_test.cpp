@@ -5,6 +5,7 @@
 #include <set>
 
 #include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/models.hpp"
 
@@ -151,7 +152,7 @@ TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
     once = true;
   }
   history.remember(crack, before);
-  const auto carried = carried_openings(crack, history, material.elastic());
+  const auto carried = carried_openings(crack, history, HoopStressLaw(material.elastic(), {}));
   for (std::size_t i = 0; i < carried.size(); ++i) {
     const int corner = quadrant(crack, i);
     EXPECT_EQ(carried[i].known, corner < 2) << "corner " << corner;
@@ -160,6 +161,25 @@ TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
                                                             : 0)
         << "corner " << corner;
   }
+}
+
+// Where the published treatment of compression drives a front, it also drives one that is carried.
+TEST(CarriedOpenings, KeepTheDriveThatMovedThem) {
+  const CrackState crack = crack_with_four_corners();
+  MaterialSpec material;
+  material.youngs_modulus = 3e9;
+  material.poisson_ratio = 0.3;
+  material.toughness = 1e6;
+  FrontHistory history(material, {}, kEdge);
+  std::vector<FrontOpening> pressed(crack.points.size());
+  for (FrontOpening& o : pressed)
+    o.intensity = o.node_intensity = {-8e6, 0, 0};
+  history.remember(crack, pressed);
+  const HoopStressLaw closed(material.elastic(), {}), published(material.elastic(), 2.0);
+  EXPECT_EQ(carried_openings(crack, history, closed)[0].intensity, Vec3::Zero());
+  EXPECT_DOUBLE_EQ(carried_openings(crack, history, published)[0].intensity[0],
+                   published.drive({-8e6, 0, 0}));
+  EXPECT_GT(published.drive({-8e6, 0, 0}), 0);
 }
 
 }  // namespace

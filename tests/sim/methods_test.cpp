@@ -116,13 +116,13 @@ TEST(Methods, RegressorsPredictFromTheSecondFrameOn) {
 
 TEST(Methods, AnotherForestOfTheSameSamplesIsAnotherRun) {
   const Scene scene = cube();
-  const BodySetup setup = set_up_body(scene);
+  const PreparedBody body = prepare(scene);
   const RegressionForest shallow = forest(2), same = forest(2), deep = forest(8);
   const auto identity = [&](const Regressor& regressor) {
     RunOptions options;
     options.method = "forest";
     options.regressor = &regressor;
-    return run_identity(scene, setup, options);
+    return run_identity(scene, body, load_of(scene, body), options);
   };
   EXPECT_EQ(shallow.provenance().samples_hash, deep.provenance().samples_hash);
   EXPECT_EQ(identity(shallow), identity(same));
