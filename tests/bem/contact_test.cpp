@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"

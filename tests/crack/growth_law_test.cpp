@@ -42,7 +42,7 @@ Toughness rising(const Vec3& x) {
   return {kToughness * (1 + 0.4 * x.z() / kEdge), 0.4 * kToughness / kEdge * Vec3::UnitZ()};
 }
 
-/// A disc of radius 1 that grows under the same K all round, as the frame loop would have it grow.
+/// A disc of radius 1 that grows under the same K all round, as a fracture would have it grow.
 struct Grown {
   CrackSheet sheet;
   FineFront fine;

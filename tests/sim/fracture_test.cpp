@@ -142,4 +142,31 @@ TEST(Fracture, AFrameLimitIsTheCallersAndTheFractureGoesOn) {
   EXPECT_EQ(halves.crack().sheet.mesh.positions, whole.crack().sheet.mesh.positions);
 }
 
+TEST(Fracture, ALoadCanChangeBetweenSteps) {
+  const Scene weak = cube(1e5), strong = cube();
+  Fracture fracture = fracture_of(weak);
+  EXPECT_EQ(fracture.step().stop, StopReason::intact);
+  fracture.set_load(load_of(strong, fracture.body()));
+  EXPECT_EQ(run_frames(fracture, 3), StopReason::frame_limit);
+  Fracture under_strong = fracture_of(strong);
+  run_frames(under_strong, 3);
+  EXPECT_EQ(fracture.crack().sheet.mesh.positions, under_strong.crack().sheet.mesh.positions)
+      << "what the weak load left is an intact body";
+
+  fracture.set_load(load_of(weak, fracture.body()));
+  EXPECT_EQ(run_frames(fracture, 10), StopReason::arrested);
+  const double area = crack_area(fracture);
+  fracture.set_load(load_of(strong, fracture.body()));
+  fracture.step();
+  EXPECT_GT(crack_area(fracture), area) << "an arrested crack goes on";
+}
+
+TEST(Fracture, ALoadOfOtherKindsIsRefused) {
+  Fracture fracture = fracture_of(cube());
+  Scene held = cube();
+  held.boundary[1].kind = ConditionKind::displacement;
+  held.boundary[1].value = Vec3::Zero();
+  EXPECT_THROW(load_of(held, fracture.body()), InputError);
+}
+
 }  // namespace conchoid

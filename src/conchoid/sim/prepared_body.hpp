@@ -27,7 +27,7 @@ struct PreparedBody {
   MaterialField strength;       ///< factor on its strength
   MaterialFrame pieces;         ///< of the pieces, as long as they are not moved
   double crack_edge = 0;        ///< r̄ [m]
-  double surface_edge = 0;       ///< h [m]
+  double surface_edge = 0;      ///< h [m]
   std::shared_ptr<const BodyOperator> elastic;  ///< of `surface`, for the kinds of the conditions
 
   bool infinite() const { return surface.corners.empty(); }

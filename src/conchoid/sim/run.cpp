@@ -48,6 +48,7 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
       {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
       {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
       {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
+      {"run.solver", scene.run.solver},
       {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
   doc.initial_triangles = body.surface.triangle_count();

@@ -7,7 +7,7 @@
 
 namespace conchoid {
 
-/// When, where to and how far a front point moves: one value that the frame loop and both fronts ask. It has
+/// When, where to and how far a front point moves: one value that the fracture and both fronts ask. It has
 /// no state; share it freely, also between threads. K = (K_I, K_II, K_III) [Pa·√m] in the front frame e1
 /// normal, e2 forward, e3 tangent, as stress_intensities() gives it: untreated, K_I < 0 under compression;
 /// what closed faces do to it is the law's to say.
