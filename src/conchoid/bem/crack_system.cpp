@@ -58,7 +58,7 @@ CrackSystem::CrackSystem(std::shared_ptr<const BodyOperator> body)
 void CrackSystem::set_crack(const CutComplex& cut, RowStore* store) {
   space_ = make_enriched_space(cut, body_->surface(), body_->kinds());
   const Plan plan = plan_replacement();
-  append(plan, stored_rows(*body_, space_, sources_, plan.wanted, store));
+  append(plan, stored_rows(*body_, space_, sources_, plan.wanted, store, pairs_));
   factored_ = std::min(factored_, plan.unchanged);
   factor_.truncate(3 * factored_);
   statistics_ = {functions_.size(), plan.wanted.size(), functions_.size() - factored_};

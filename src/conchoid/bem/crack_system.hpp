@@ -75,6 +75,7 @@ class CrackSystem {
 
   std::shared_ptr<const BodyOperator> body_;
   EnrichedSpace space_;
+  PairMemory pairs_;
   std::vector<LoadSource> sources_;
   std::vector<Function> functions_;
   std::vector<std::size_t> position_;

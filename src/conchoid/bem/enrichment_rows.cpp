@@ -35,11 +35,12 @@ class RowAssembler {
   enum class Part { all, sources };
 
   RowAssembler(const BodyOperator& body, const EnrichedSpace& space, std::span<const LoadSource> sources,
-               const std::vector<std::size_t>& wanted, Part part)
+               const std::vector<std::size_t>& wanted, Part part, PairMemory* memory = nullptr)
       : body_(body.discretisation()),
         space_(space),
         source_count_(sources.size()),
         part_(part),
+        memory_(memory),
         source_of_triangle_(body_.surface.triangle_count(), -1),
         source_of_node_(body_.surface.node_count(), -1),
         trial_(space.panels.size()),
@@ -60,13 +61,16 @@ class RowAssembler {
       test_index_[test_panels_[i]] = static_cast<long>(i);
     rows_.assign(wanted.size(), empty_rows());
     if (part_ == Part::sources) return;
+    if (memory_) {
+      memory_->match(space.panels);
+      made_.resize(space.panels.size());
+    }
     const std::size_t n = test_panels_.size();
     table_.resize(n * (n + 1) / 2);
     parallel_for(n, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t j = 0; j <= i; ++j)
-          table_[i * (i + 1) / 2 + j] =
-              body_.integrator.single_layer(space_.panels[test_panels_[i]], space_.panels[test_panels_[j]]);
+          table_[i * (i + 1) / 2 + j] = single_layer(test_panels_[i], test_panels_[j]);
     });
   }
 
@@ -84,6 +88,7 @@ class RowAssembler {
         for (const TestRows& t : part)
           accumulate(t.rows, rows_[t.f.index]);
     }
+    if (memory_) memory_->remember(space_.panels, std::move(made_));
     return std::move(rows_);
   }
 
@@ -112,8 +117,12 @@ class RowAssembler {
     add(from.sources.data, to.sources.data);
   }
 
-  std::vector<TestRows> rows_of_panel(std::size_t x) const {
+  // A panel of the crack with a corner on the front: its other functions are still to come.
+  bool at_front(std::size_t x) const { return x >= space_.surface_count && trial_[x].size() < 3; }
+
+  std::vector<TestRows> rows_of_panel(std::size_t x) {
     std::vector<TestRows> out;
+    if (memory_ && at_front(x)) made_[x] = PairMemory::row_of(space_.panels.size());
     for (const LocalFunction& f : test_[x])
       out.push_back({f, empty_rows()});
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
@@ -121,7 +130,12 @@ class RowAssembler {
       const bool wanted = part_ == Part::sources ? on_surface && has_source(space_.parent[y])
                                                  : on_surface || !trial_[y].empty();
       if (!wanted) continue;
-      const PairBlocks blocks(pair(x, y), body_.m);
+      const SingleLayerPair integrals = pair(x, y);
+      if (PairMemory::Row* row = kept_row(x)) {
+        row->single_layer[y] = integrals;
+        row->has_single[y] = 1;
+      }
+      const PairBlocks blocks(integrals, body_.m);
       if (part_ == Part::all)
         for (TestRows& t : out)
           for (const LocalFunction& g : trial_[y])
@@ -137,10 +151,27 @@ class RowAssembler {
            std::any_of(nodes.begin(), nodes.end(), [&](NodeId i) { return source_of_node_[i.index()] >= 0; });
   }
 
+  PairMemory::Row* kept_row(std::size_t x) { return made_.empty() || made_[x].empty() ? nullptr : &made_[x]; }
+
+  SingleLayerPair single_layer(std::size_t x, std::size_t y) const {
+    if (memory_) {
+      if (const SingleLayerPair* known = memory_->single_layer(x, y)) return *known;
+      if (const SingleLayerPair* known = memory_->single_layer(y, x)) return *known;
+    }
+    return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+  }
+
+  // Tested on x, with the functions of surface piece y.
+  DoubleLayerPair double_layer(std::size_t x, std::size_t y) const {
+    if (memory_)
+      if (const DoubleLayerPair* known = memory_->double_layer(x, y)) return *known;
+    return body_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+  }
+
   SingleLayerPair pair(std::size_t x, std::size_t y) const {
-    if (test_[y].empty()) return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    if (test_[y].empty()) return single_layer(x, y);
     if (x < y) std::swap(x, y);
-    if (table_.empty()) return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    if (table_.empty()) return single_layer(x, y);
     const long i = test_index_[x], j = test_index_[y];
     return table_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
   }
@@ -159,7 +190,7 @@ class RowAssembler {
   }
 
   // Interaction with the body's own functions on surface piece y.
-  void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) const {
+  void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) {
     const std::size_t parent = space_.parent[y].index();
     const auto& nodes = body_.surface.corners[space_.parent[y]];
     for (int k = 0; k < 3; ++k) {
@@ -171,7 +202,11 @@ class RowAssembler {
     }
     const Column to = column(body_.traction_unknown[parent], 0, source_of_triangle_[parent]);
     if (!to.matrix) return;
-    const DoubleLayerPair dl = body_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+    const DoubleLayerPair dl = double_layer(x, y);
+    if (PairMemory::Row* row = kept_row(x)) {
+      row->double_layer[y] = dl;
+      row->has_double[y] = 1;
+    }
     for (TestRows& t : out)
       (t.rows.*to.matrix).add(0, to.at, blocks.double_layer(t.f.curl, weigh(dl, t.f.w)).transpose());
   }
@@ -180,6 +215,8 @@ class RowAssembler {
   const EnrichedSpace& space_;
   const std::size_t source_count_;
   const Part part_;
+  PairMemory* memory_;
+  std::vector<PairMemory::Row> made_;                     // per panel; empty without a memory
   std::vector<int> source_of_triangle_, source_of_node_;  // −1: none
   std::vector<std::array<Vec3, 3>> curls_;
   PanelFunctions trial_, test_;
@@ -193,8 +230,9 @@ class RowAssembler {
 
 std::vector<EnrichmentRows> assemble_enrichment_rows(const BodyOperator& body, const EnrichedSpace& space,
                                                      std::span<const LoadSource> sources,
-                                                     const std::vector<std::size_t>& wanted) {
-  return RowAssembler(body, space, sources, wanted, RowAssembler::Part::all).assemble();
+                                                     const std::vector<std::size_t>& wanted,
+                                                     PairMemory* memory) {
+  return RowAssembler(body, space, sources, wanted, RowAssembler::Part::all, memory).assemble();
 }
 
 std::vector<DenseMatrix> assemble_source_columns(const BodyOperator& body, const EnrichedSpace& space,

@@ -6,6 +6,7 @@
 #include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/dense_matrix.hpp"
 #include "conchoid/bem/enrichment.hpp"
+#include "conchoid/bem/pair_memory.hpp"
 
 namespace conchoid {
 
@@ -21,9 +22,12 @@ struct EnrichmentRows {
 
 /// Rows of the functions listed in `wanted` (indices into space.functions), in that order.
 /// @param sources  places of prescribed values whose columns are made too
+/// @param memory   integrals known from the rows before; those of the panels at the front are kept in it. Changes
+///                 no bit; may be null
 std::vector<EnrichmentRows> assemble_enrichment_rows(const BodyOperator& body, const EnrichedSpace& space,
                                                      std::span<const LoadSource> sources,
-                                                     const std::vector<std::size_t>& wanted);
+                                                     const std::vector<std::size_t>& wanted,
+                                                     PairMemory* memory = nullptr);
 
 /// The columns of some sources alone, for every function of the space: 3 × 3·sources each.
 std::vector<DenseMatrix> assemble_source_columns(const BodyOperator& body, const EnrichedSpace& space,

@@ -38,12 +38,13 @@ bool fits(const std::vector<EnrichmentRows>& rows, const BodyOperator& body, con
 
 std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
                                         std::span<const LoadSource> sources,
-                                        const std::vector<std::size_t>& wanted, RowStore* store) {
-  if (!store || wanted.empty()) return assemble_enrichment_rows(body, space, sources, wanted);
+                                        const std::vector<std::size_t>& wanted, RowStore* store,
+                                        PairMemory& memory) {
+  if (!store || wanted.empty()) return assemble_enrichment_rows(body, space, sources, wanted, &memory);
   const std::string name = name_of(space, sources, wanted);
   if (auto known = store->recall(name); known && fits(*known, body, space, sources.size(), wanted.size()))
     return std::move(*known);
-  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(body, space, sources, wanted);
+  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(body, space, sources, wanted, &memory);
   store->keep(name, rows);
   return rows;
 }

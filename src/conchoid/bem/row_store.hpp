@@ -21,9 +21,11 @@ class RowStore {
 };
 
 /// assemble_enrichment_rows(), or what the store has under their name.
-/// @param store  may be null
+/// @param store   may be null
+/// @param memory  see assemble_enrichment_rows()
 std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
                                         std::span<const LoadSource> sources,
-                                        const std::vector<std::size_t>& wanted, RowStore* store);
+                                        const std::vector<std::size_t>& wanted, RowStore* store,
+                                        PairMemory& memory);
 
 }  // namespace conchoid

@@ -167,6 +167,13 @@ DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) con
   return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
 }
 
+bool same_integrals(const Panel& known_x, const Panel& known_y, const Panel& x, const Panel& y) {
+  const SharedCorners before = shared_corners(known_x, known_y), now = shared_corners(x, y);
+  if (before.count != now.count || in_order(known_x, known_y) != in_order(x, y)) return false;
+  return std::equal(now.in_x.begin(), now.in_x.begin() + now.count, before.in_x.begin()) &&
+         std::equal(now.in_y.begin(), now.in_y.begin() + now.count, before.in_y.begin());
+}
+
 SingleLayerPair single_layer_potential(const Vec3& x, const Panel& y) {
   if (!is_far(x, y)) return to_pair(potential_of(x, y).single_layer(x));
   Family sum = Family::Zero();

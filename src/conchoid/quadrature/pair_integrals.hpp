@@ -44,6 +44,10 @@ class PairIntegrator {
   double tolerance_;
 };
 
+/// Whether the pair (x, y) has the integrals of (known_x, known_y) to the last bit, where the corners of the
+/// panels are the same in the same order: the same vertices are shared, and the two stand in the same order.
+bool same_integrals(const Panel& known_x, const Panel& known_y, const Panel& x, const Panel& y);
+
 /// Potentials of one panel at a point x (closed forms), for stress and displacement inside:
 /// ∫_Y 1/R, and its companions; used as the inner integral of near pairs and by tests as an oracle.
 SingleLayerPair single_layer_potential(const Vec3& x, const Panel& y);
