@@ -27,6 +27,14 @@ TriMesh disc(const Vec3& center, double radius) {
   return disc_crack(center, Vec3::UnitZ(), radius, {.edge = kEdge});
 }
 
+MaterialSpec glassy() {
+  MaterialSpec material;
+  material.youngs_modulus = 3e9;
+  material.poisson_ratio = 0.3;
+  material.toughness = 1e6;
+  return material;
+}
+
 std::vector<FrontOpening> unknown(std::size_t n) {
   std::vector<FrontOpening> out(n);
   for (FrontOpening& o : out)
@@ -139,10 +147,7 @@ TEST(FrontGaps, AFrontThatLeavesTheBodyIsSeveral) {
 // Two corners were solved in the frame before, with different K; of the others nothing is known.
 TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
   const CrackState crack = crack_with_four_corners();
-  MaterialSpec material;
-  material.youngs_modulus = 3e9;
-  material.poisson_ratio = 0.3;
-  material.toughness = 1e6;
+  const MaterialSpec material = glassy();
   FrontHistory history(material, {}, kEdge);
   auto before = unknown(crack.points.size());
   std::array<bool, 4> told{};
@@ -166,10 +171,7 @@ TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
 // Where the published treatment of compression drives a front, it also drives one that is carried.
 TEST(CarriedOpenings, KeepTheDriveThatMovedThem) {
   const CrackState crack = crack_with_four_corners();
-  MaterialSpec material;
-  material.youngs_modulus = 3e9;
-  material.poisson_ratio = 0.3;
-  material.toughness = 1e6;
+  const MaterialSpec material = glassy();
   FrontHistory history(material, {}, kEdge);
   std::vector<FrontOpening> pressed(crack.points.size());
   for (FrontOpening& o : pressed)

@@ -8,6 +8,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
 #include "conchoid/surface/fragment_attributes.hpp"
 #include "conchoid/surface/move_fragment.hpp"
@@ -34,20 +35,12 @@ TriMesh join(const std::vector<TriMesh>& sheets) {
   return all;
 }
 
-// Nodes that no triangle uses are dropped.
-TriMesh used_part(const CutComplex& cut) {
-  TriMesh out;
-  std::vector<NodeId> moved(cut.positions.size());
-  for (const auto& c : cut.sheet) {
-    std::array<NodeId, 3> corners;
-    for (int k = 0; k < 3; ++k) {
-      NodeId& to = moved[c[k].index()];
-      if (!to.valid()) to = out.positions.add(cut.positions[c[k]]);
-      corners[k] = to;
-    }
-    out.corners.push_back(corners);
-  }
-  return out;
+// Of the sheet; nodes that no triangle uses are dropped.
+TriMesh part_inside(const CutComplex& cut) {
+  std::vector<TriId> all;
+  for (std::size_t t = 0; t < cut.sheet.size(); ++t)
+    all.emplace_back(t);
+  return submesh({cut.positions, cut.sheet}, all);
 }
 
 std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
@@ -80,7 +73,7 @@ void cut(const Fracture& fracture, Pieces& out) {
         out.fragments = std::move(pieces);
       }
     }
-    out.crack = used_part(corefine(body.detailed, join(sheets)));
+    out.crack = part_inside(corefine(body.detailed, join(sheets)));
   } catch (const ComputationError& error) {  // folded over itself: the frames are still worth having
     out.warnings.push_back(
         fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
@@ -97,7 +90,7 @@ TriMesh crack_surface(const Fracture& fracture) {
   const PreparedBody& body = fracture.body();
   TriMesh crack = join(fracture.visible_sheets());
   if (!body.infinite()) try {
-      crack = used_part(corefine(body.detailed, crack));
+      crack = part_inside(corefine(body.detailed, crack));
     } catch (const ComputationError&) {  // folded over itself: as it was swept
     }
   for (Vec3& x : crack.positions)
