@@ -40,6 +40,15 @@ class Calls : public FractureObserver {
   std::string log;
 };
 
+/// Nothing drives a front.
+class Unbreakable : public GrowthLaw {
+ public:
+  double drive(const Vec3&) const override { return 0; }
+  double direction(const Vec3&) const override { return 0; }
+  double length(double, double, double) const override { return 0; }
+  double deflection(double, double, double) const override { return 0; }
+};
+
 class FullDisk : public FractureObserver {
  public:
   void on_opening(const Fracture& fracture) override {
@@ -167,6 +176,17 @@ TEST(Fracture, ALoadOfOtherKindsIsRefused) {
   held.boundary[1].kind = ConditionKind::displacement;
   held.boundary[1].value = Vec3::Zero();
   EXPECT_THROW(load_of(held, fracture.body()), InputError);
+}
+
+TEST(Fracture, ObeysTheGrowthLawItIsGiven) {
+  const Scene scene = cube();
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  Fracture fracture(body, load_of(scene, *body), scene.run, {}, std::make_shared<Unbreakable>());
+  const StepReport step = fracture.step();
+  EXPECT_EQ(step.new_cracks, 1u);
+  EXPECT_EQ(step.stop, StopReason::arrested);
+  EXPECT_EQ(step.largest_intensity, 0);
+  EXPECT_EQ(fracture.cracks(), 1u);
 }
 
 }  // namespace conchoid

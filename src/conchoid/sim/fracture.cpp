@@ -288,9 +288,6 @@ void Fracture::keep_rows(RowStore* store) {
 const PreparedBody& Fracture::body() const {
   return *state_->body;
 }
-const std::shared_ptr<const PreparedBody>& Fracture::shared_body() const {
-  return state_->body;
-}
 const RunSpec& Fracture::settings() const {
   return state_->settings;
 }

@@ -91,7 +91,6 @@ class Fracture {
   void keep_rows(RowStore* store);
 
   const PreparedBody& body() const;
-  const std::shared_ptr<const PreparedBody>& shared_body() const;
   const RunSpec& settings() const;
   const LoadCase& load() const;
   /// Number of frames whose opening is known.
