@@ -117,8 +117,8 @@ class RowAssembler {
     add(from.sources.data, to.sources.data);
   }
 
-  // A panel of the crack with a corner on the front: its other functions are still to come.
-  bool at_front(std::size_t x) const { return x >= space_.surface_count && trial_[x].size() < 3; }
+  // Functions of the panel are still to come: it has a corner on the front, or lies at the mouth.
+  bool at_front(std::size_t x) const { return x < space_.surface_count || trial_[x].size() < 3; }
 
   std::vector<TestRows> rows_of_panel(std::size_t x) {
     std::vector<TestRows> out;

@@ -10,8 +10,8 @@ namespace conchoid {
 /// Integrals of panel pairs from one growth of a crack to the next. The panels behind a front are integrated
 /// when the nodes behind them come into the system, and again when the front has passed and their other nodes
 /// follow; what is known from the first time has the same bits and need not be computed again.
-/// Memory: 80 bytes per remembered panel and panel of the body and its cracks; the panels at the front are
-/// remembered.
+/// Memory: 80 bytes per remembered panel and panel of the body and its cracks; those at the front and at
+/// the mouth are remembered.
 class PairMemory {
  public:
   /// Integrals of one panel x with all others, as far as they were needed.
