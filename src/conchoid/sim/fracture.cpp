@@ -78,10 +78,9 @@ struct Fracture::State {
   std::optional<StopReason> stop;
   std::vector<FrontOpening> openings;
   std::vector<FrontDecision> decisions;
-  double largest_intensity = 0;  // K_eff of the frame
-  int new_cracks = 0;            // that started in the run
-  int carried = 0;               // frames in a row that could not be solved
-  bool warned = false;           // of predictions beyond the training
+  int new_cracks = 0;   // that started in the run
+  int carried = 0;      // frames in a row that could not be solved
+  bool warned = false;  // of predictions beyond the training
 
   State(std::shared_ptr<const PreparedBody> prepared, LoadCase loads, const RunSpec& run,
         const MakeOpeningSource& source, std::shared_ptr<const GrowthLaw> law)
@@ -168,7 +167,6 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   const double r = body->crack_edge;
   std::vector<FrontStep> steps;
   decisions.clear();
-  largest_intensity = 0;
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontOpening& o = openings[i];
@@ -179,7 +177,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     d.length = arrested ? 0 : growth.law->length(d.drive, d.toughness, r);
     const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
     d.angle = ligament ? 0 : growth.law->direction(o.intensity);
-    largest_intensity = std::max(largest_intensity, d.drive);
+    report.largest_intensity = std::max(report.largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
     if (d.length > 0 || (!arrested && d.drive > 0 && !body->toughness.homogeneous()))
       steps.push_back({point.node, point.frame, d.angle, d.drive});
@@ -196,9 +194,8 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   for (const FrontPoint& point : ligament_points(crack))
     steps.push_back(
         {point.node, point.frame, 0,
-         std::max(largest_intensity,
+         std::max(report.largest_intensity,
                   kLigamentIntensity * growth.toughness(crack.sheet.mesh.positions[point.node]).value)});
-  report.largest_intensity = largest_intensity;
   return steps;
 }
 

@@ -1,12 +1,9 @@
+#include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/sim/front_gaps.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
 namespace {
-
-Vec3 in_frame(const FrontFrame& f, const Vec3& v) {
-  return {v.dot(f.e1), v.dot(f.e2), v.dot(f.e3)};
-}
 
 Vec3 in_world(const FrontFrame& f, const Vec3& v) {
   return v[0] * f.e1 + v[1] * f.e2 + v[2] * f.e3;

@@ -3,15 +3,9 @@
 #include <algorithm>
 
 #include "conchoid/bem/surface_stress.hpp"
+#include "conchoid/crack/front/front_frames.hpp"
 
 namespace conchoid {
-namespace {
-
-Vec3 in_frame(const FrontFrame& f, const Vec3& v) {
-  return {v.dot(f.e1), v.dot(f.e2), v.dot(f.e3)};
-}
-
-}  // namespace
 
 void FrontRecorder::on_opening(const Fracture& fracture) {
   const CrackState& crack = fracture.crack();

@@ -42,4 +42,9 @@ inline std::size_t edge_count(std::size_t n, bool closed) {
   return closed ? n : (n > 0 ? n - 1 : 0);
 }
 
+/// Components of v along e1, e2, e3.
+inline Vec3 in_frame(const FrontFrame& frame, const Vec3& v) {
+  return {v.dot(frame.e1), v.dot(frame.e2), v.dot(frame.e3)};
+}
+
 }  // namespace conchoid

@@ -59,10 +59,6 @@ std::vector<NodeId> nodes_across_front_edges(const TriMesh& crack, const Front& 
   return across;
 }
 
-Vec3 in_frame(const FrontFrame& frame, const Vec3& v) {
-  return {v.dot(frame.e1), v.dot(frame.e2), v.dot(frame.e3)};
-}
-
 std::vector<Vec3> one_point_rates(const TriMesh& crack, const Front& front,
                                   const IdVector<NodeId, Vec3>& opening) {
   const std::size_t n = front.nodes.size();
