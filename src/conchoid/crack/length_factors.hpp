@@ -176,4 +176,20 @@ inline constexpr int kDivisionRounds = 1000;
 /// Relative: edges of a fine bridge that are equally long.
 inline constexpr double kEqualLength = 1e-9;
 
+// The last ligament (closing/last_ligament.hpp).
+
+/// Cells per r̄: what is about to break is one r̄ wide, and a few cells tell its shape.
+inline constexpr double kCellsPerEdge = 5;
+/// Cells of the box around a body at most: bounds what a search costs.
+inline constexpr double kMostCells = 4e6;
+/// Cells on the smaller side of a cut at least; fewer are chips of the grid.
+inline constexpr int kFewestCells = 30;
+/// × face, for a crack's face that a cut leaves unused: an arm of a crack off the way costs little, and a cut
+/// is only made where what it breaks is less than this share of the crack it completes.
+inline constexpr double kUnusedFace = 0.3;
+/// Cells by which it sticks out of the body.
+inline constexpr int kCellsOutside = 2;
+/// Passes over a ligament's surface: it is a few cells wide.
+inline constexpr int kSmoothingRounds = 40;
+
 }  // namespace conchoid

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 
@@ -173,15 +174,27 @@ bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<Nod
 }
 
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit) {
+  constexpr std::size_t kGrain = 256, kGrainsAtOnce = 64;
   std::vector<std::pair<TriId, TriId>> found;
   const BoxTree tree(mesh);
-  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-    const TriId s(i);
-    for (const TriId t : tree.overlapping(box_of(mesh.triangle(s)))) {
-      if (found.size() >= limit) return found;
-      if (s < t && triangles_intersect(mesh, s, t)) found.emplace_back(s, t);
-    }
+  const std::size_t n = mesh.triangle_count();
+  for (std::size_t begin = 0; begin < n && found.size() < limit; begin += kGrain * kGrainsAtOnce) {
+    const std::size_t count = std::min(n - begin, kGrain * kGrainsAtOnce);
+    std::vector<std::vector<std::pair<TriId, TriId>>> of_grain((count + kGrain - 1) / kGrain);
+    parallel_for(count, kGrain, [&](std::size_t from, std::size_t to) {
+      auto& own = of_grain[from / kGrain];
+      for (std::size_t i = begin + from; i < begin + to; ++i) {
+        const auto first = static_cast<std::ptrdiff_t>(own.size());
+        tree.visit_overlapping(box_of(mesh.triangle(TriId(i))), [&](TriId t) {
+          if (TriId(i) < t && triangles_intersect(mesh, TriId(i), t)) own.emplace_back(TriId(i), t);
+        });
+        std::sort(own.begin() + first, own.end());
+      }
+    });
+    for (const auto& own : of_grain)
+      found.insert(found.end(), own.begin(), own.end());
   }
+  if (found.size() > limit) found.resize(limit, {TriId(), TriId()});
   return found;
 }
 

@@ -115,7 +115,9 @@ TriMesh unfolded(TriMesh sheet) {
 
 TriMesh unfolded_part(const TriMesh& sheet) {
   // Small folds first: cut out they would be holes.
-  return embedded_part(unfolded(embedded_part(unfolded(manifold_part(sheet)))));
+  const TriMesh embedded = embedded_part(unfolded(manifold_part(sheet)));
+  TriMesh smoother = unfolded(embedded);
+  return smoother.positions == embedded.positions ? embedded : embedded_part(smoother);
 }
 
 }  // namespace conchoid

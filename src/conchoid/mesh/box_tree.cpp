@@ -45,21 +45,7 @@ std::size_t BoxTree::build(const std::vector<Vec3>& centers, std::size_t begin, 
 
 std::vector<TriId> BoxTree::overlapping(const Box& box) const {
   std::vector<TriId> found;
-  if (branches_.empty()) return found;
-  std::array<std::size_t, deepest> stack;
-  std::size_t count = 0;
-  stack[count++] = 0;
-  while (count > 0) {
-    const Branch& branch = branches_[stack[--count]];
-    if (!overlap(branch.box, box)) continue;
-    if (branch.left != 0) {
-      stack[count++] = branch.left;
-      stack[count++] = branch.right;
-      continue;
-    }
-    for (std::size_t i = branch.begin; i < branch.end; ++i)
-      if (overlap(boxes_[order_[i]], box)) found.push_back(TriId(order_[i]));
-  }
+  visit_overlapping(box, [&](TriId t) { found.push_back(t); });
   std::sort(found.begin(), found.end());
   return found;
 }

@@ -18,6 +18,10 @@ class BoxTree {
   /// Triangles whose boxes meet the given one (touching counts), ascending.
   std::vector<TriId> overlapping(const Box& box) const;
 
+  /// Calls visit(t) for each of these, in no order.
+  template <class Visit>
+  void visit_overlapping(const Box& box, const Visit& visit) const;
+
   /// Calls visit(t) for every triangle that may be nearer to x than the bound, near boxes first; visit
   /// returns the bound from there on, a squared distance [m²]. Boxes as far away as the bound are still
   /// visited, so that of equally near triangles any may be chosen.
@@ -63,6 +67,25 @@ void BoxTree::visit_near(const Vec3& x, double bound, const Visit& visit) const 
     if (far.squared_distance < near.squared_distance) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;
+  }
+}
+
+template <class Visit>
+void BoxTree::visit_overlapping(const Box& box, const Visit& visit) const {
+  if (branches_.empty()) return;
+  std::array<std::size_t, deepest> stack;
+  std::size_t count = 0;
+  stack[count++] = 0;
+  while (count > 0) {
+    const Branch& branch = branches_[stack[--count]];
+    if (!overlap(branch.box, box)) continue;
+    if (branch.left != 0) {
+      stack[count++] = branch.left;
+      stack[count++] = branch.right;
+      continue;
+    }
+    for (std::size_t i = branch.begin; i < branch.end; ++i)
+      if (overlap(boxes_[order_[i]], box)) visit(TriId(order_[i]));
   }
 }
 

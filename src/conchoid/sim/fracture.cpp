@@ -9,6 +9,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/crack/closing/advance_fronts.hpp"
+#include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
@@ -102,8 +103,12 @@ struct Fracture::State {
                       FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
 
+  std::optional<BodyCut> parted;  // when it separated
+
   bool solved() const { return !predictor && carried == 0; }
-  bool separated() const { return !body->infinite() && separates(crack.cut); }
+  std::vector<TriMesh> visible_sheets() const;
+  bool separated();
+  bool ligament_breaks();
 
   void start(StepReport& report);
   void start_cracks(StepReport& report);
@@ -111,6 +116,48 @@ struct Fracture::State {
   std::vector<FrontStep> decide(StepReport& report);
   void compute_frame(const Fracture& self, StepReport& report);
 };
+
+// By the cut of the boundary elements, and of the detailed body, which the markers may not have crossed quite.
+bool Fracture::State::separated() {
+  if (body->infinite() || !separates(crack.cut)) return false;
+  if (!settings.cut_before_separated) return true;
+  BodyCut cut = cut_body(*body, settings, visible_sheets());
+  if (!cut.parted()) cut_ligament(cut, *body, settings);
+  if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
+  return parted.has_value();
+}
+
+// Whether what still holds the body together is too narrow for the elements and driven beyond what it bears.
+bool Fracture::State::ligament_breaks() {
+  if (body->infinite()) return false;
+  const double r = body->crack_edge;
+  const auto& sheet = crack.sheet;
+  bool unresolved = carried > 0;
+  for (std::size_t i = 0; i < crack.points.size(); ++i)
+    unresolved = unresolved || sheet.state[crack.points[i].node] == FrontState::arrested ||
+                 opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r;
+  if (!unresolved) return false;
+  Clock clock;
+  const auto ligament = find_last_ligament(body->surface, fine.surface(), r);
+  if (getenv("LIG"))
+    fmt::print(stderr, "frame {}: ligament {} half {:.2f} smaller {:.3g} faces {} in {:.3f} s\n", frame, ligament.has_value(),
+               ligament ? ligament->half_width / r : 0, ligament ? ligament->smaller_part : 0,
+               ligament ? ligament->faces.size() : 0, clock.lap());
+  if (!ligament || ligament->half_width > 0.5 * kWidestLigament * r) return false;
+  bool driven = carried > 0 || ligament->faces.empty();
+  for (std::size_t i = 0; i < crack.points.size() && !driven; ++i)
+    driven = decisions[i].drive > decisions[i].toughness &&
+             std::any_of(ligament->faces.begin(), ligament->faces.end(), [&](const Vec3& x) {
+               return (x - sheet.mesh.positions[crack.points[i].node]).norm() < kWidestLigament * r;
+             });
+  if (!driven) return false;
+  if (!settings.cut_before_separated) return true;
+  BodyCut cut = cut_body(*body, settings, visible_sheets());
+  if (!cut.parted()) cut_ligament(cut, *body, settings);
+  if (getenv("LIG")) fmt::print(stderr, "  cut into {} in {:.3f} s\n", cut.fragments.size(), clock.lap());
+  if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
+  return parted.has_value();
+}
 
 // One new crack at a time, where the stress as last solved exceeds the strength most.
 void Fracture::State::start_cracks(StepReport& report) {
@@ -210,6 +257,10 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     observer->on_opening(self);
   if (!predictor) history.remember(crack, openings);
   report.other_seconds = clock.lap();
+  if (ligament_breaks()) {
+    stop = StopReason::separated;
+    return;
+  }
   const std::size_t fronts_before = crack.sheet.fronts.size();
   if (solved()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
@@ -323,8 +374,15 @@ std::size_t Fracture::cracks() const {
 }
 
 std::vector<TriMesh> Fracture::visible_sheets() const {
-  FineFront finished = state_->visible ? *state_->visible : state_->fine;
-  if (!state_->crack.sheet.fronts.empty()) finished.finish();
+  return state_->visible_sheets();
+}
+const BodyCut* Fracture::parted() const {
+  return state_->parted ? &*state_->parted : nullptr;
+}
+
+std::vector<TriMesh> Fracture::State::visible_sheets() const {
+  FineFront finished = visible ? *visible : fine;
+  if (!crack.sheet.fronts.empty()) finished.finish();
   const TriMesh& all = finished.surface();
   const std::vector<int> part = connected_parts(all);
   std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));

@@ -8,6 +8,7 @@
 
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/io/outcome.hpp"
+#include "conchoid/sim/body_cut.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -115,6 +116,8 @@ class Fracture {
   /// The visible crack surfaces as swept (they may stick out), one sheet per crack, with the last row of the
   /// markers that are ahead of it.
   std::vector<TriMesh> visible_sheets() const;
+  /// The detailed body as it was cut when it separated; null before, and where the settings do not ask for it.
+  const BodyCut* parted() const;
 
  private:
   struct State;

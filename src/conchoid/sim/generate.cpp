@@ -46,7 +46,9 @@ GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const 
   record.beta = load.rotation;
   try {
     const Scene scene = loaded_scene(spec, load);
-    Fracture fracture(body, load_of(scene, *body), scene.run);
+    RunSpec settings = scene.run;
+    settings.cut_before_separated = false;
+    Fracture fracture(body, load_of(scene, *body), settings);
     GrowthRecorder growth;
     SampleRecorder samples;
     fracture.add_observer(growth);

@@ -1,13 +1,9 @@
 #include "conchoid/sim/pieces.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/intersect/unfold.hpp"
-#include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
 #include "conchoid/surface/fragment_attributes.hpp"
@@ -18,22 +14,8 @@
 namespace conchoid {
 namespace {
 
-constexpr double kRunOut =
-    0.5;  // × r̄: how far a crack that separates the coarse body is run on through the detailed one
 // Far below what can be seen, far above what single precision rounds away.
 constexpr double kSlitWidth = 2e-4;  // of the crack surface's edge length
-
-TriMesh join(const std::vector<TriMesh>& sheets) {
-  TriMesh all;
-  for (const TriMesh& sheet : sheets) {
-    const std::size_t first = all.node_count();
-    all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
-    for (const auto& c : sheet.corners)
-      all.corners.push_back(
-          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
-  }
-  return all;
-}
 
 // Of the sheet; nodes that no triangle uses are dropped.
 TriMesh part_inside(const CutComplex& cut) {
@@ -41,12 +23,6 @@ TriMesh part_inside(const CutComplex& cut) {
   for (std::size_t t = 0; t < cut.sheet.size(); ++t)
     all.emplace_back(t);
   return submesh({cut.positions, cut.sheet}, all);
-}
-
-std::vector<TriMesh> run_on(std::vector<TriMesh> sheets, double length) {
-  for (TriMesh& sheet : sheets)
-    sheet = unfolded_part(extend_sheet_beyond(sheet, boundary_edges(sheet), length));
-  return sheets;
 }
 
 AttributeSettings attribute_settings(const OutputSpec& output, const PreparedBody& body) {
@@ -57,30 +33,12 @@ AttributeSettings attribute_settings(const OutputSpec& output, const PreparedBod
   return settings;
 }
 
-void cut(const Fracture& fracture, Pieces& out) {
-  const PreparedBody& body = fracture.body();
-  const RunSpec& run = fracture.settings();
-  const FragmentSettings settings{body.material.density, run.smallest_fragment,
-                                  static_cast<std::size_t>(run.max_fragments)};
-  std::vector<TriMesh> sheets = fracture.visible_sheets();
+// The crack inside the body; as it was swept where it is folded over itself.
+TriMesh trimmed_crack(const PreparedBody& body, const std::vector<TriMesh>& sheets) {
   try {
-    out.fragments = cut_into_fragments(body.detailed, sheets, settings);
-    if (fracture.stop() == StopReason::separated && settings.maximum_count != 1 && out.fragments.size() < 2) {
-      std::vector<TriMesh> longer = run_on(sheets, kRunOut * body.crack_edge);
-      std::vector<Fragment> pieces = cut_into_fragments(body.detailed, longer, settings);
-      if (pieces.size() > 1) {
-        sheets = std::move(longer);
-        out.fragments = std::move(pieces);
-      }
-    }
-    out.crack = part_inside(corefine(body.detailed, join(sheets)));
-  } catch (const ComputationError& error) {  // folded over itself: the frames are still worth having
-    out.warnings.push_back(
-        fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
-                    "as swept, the body is left whole",
-                    error.what()));
-    out.crack = join(sheets);
-    out.fragments = cut_into_fragments(body.detailed, {}, settings);
+    return part_inside(corefine(body.detailed, join(sheets)));
+  } catch (const ComputationError&) {
+    return join(sheets);
   }
 }
 
@@ -88,11 +46,8 @@ void cut(const Fracture& fracture, Pieces& out) {
 
 TriMesh crack_surface(const Fracture& fracture) {
   const PreparedBody& body = fracture.body();
-  TriMesh crack = join(fracture.visible_sheets());
-  if (!body.infinite()) try {
-      crack = part_inside(corefine(body.detailed, crack));
-    } catch (const ComputationError&) {  // folded over itself: as it was swept
-    }
+  const std::vector<TriMesh> sheets = fracture.visible_sheets();
+  TriMesh crack = body.infinite() ? join(sheets) : trimmed_crack(body, sheets);
   for (Vec3& x : crack.positions)
     x += body.origin;
   return crack;
@@ -105,7 +60,10 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
     out.crack = crack_surface(fracture);
     return out;
   }
-  cut(fracture, out);
+  BodyCut cut = fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
+  out.fragments = std::move(cut.fragments);
+  out.warnings = std::move(cut.warnings);
+  out.crack = join({trimmed_crack(body, cut.sheets), cut.ligament});
   out.contacts = fragment_contacts(out.fragments);
   for (Fragment& f : out.fragments) {
     keep_solid(f);

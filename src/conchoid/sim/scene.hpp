@@ -93,6 +93,9 @@ struct RunSpec {
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
   int max_fragments = 0;            ///< 0: no limit
+  /// Whether the detailed body is cut before a fracture counts as separated; no key of the scene. Where nobody
+  /// asks for the pieces the cut of the boundary elements will do.
+  bool cut_before_separated = true;
 };
 
 struct Scene {

@@ -24,10 +24,21 @@ struct Piece {
   std::vector<TriId> source;
 };
 
+/// Faces of the sheet with the same piece on both sides.
+std::vector<bool> slit_pieces(const CutComplex& cut, const Shells& shells) {
+  std::vector<bool> slit(cut.sheet.size());
+  for (std::size_t s = 0; s < slit.size(); ++s)
+    slit[s] = shells.solid[shells.surface_faces + s] ==
+              shells.solid[shells.surface_faces + shells.sheet_faces + s];
+  return slit;
+}
+
 /// Which sheet faces to leave out so that no piece is smaller than `minimum_volume`: the smallest piece joins
 /// the neighbour it shares the largest area with, again and again.
 std::vector<bool> faces_between_slivers(const CutComplex& cut, const Shells& shells, double minimum_volume) {
-  std::vector<bool> left_out(cut.sheet.size(), false);
+  std::vector<bool> left_out(cut.sheet.size());
+  for (std::size_t s = 0; s < left_out.size(); ++s)
+    left_out[s] = !shells.present[shells.surface_faces + s];
   std::vector<double> volume = shells.volume;
   std::vector<std::size_t> joined(volume.size());
   for (std::size_t s = 0; s < joined.size(); ++s)
@@ -42,6 +53,7 @@ std::vector<bool> faces_between_slivers(const CutComplex& cut, const Shells& she
     if (sliver == volume.size()) return left_out;
     std::map<std::size_t, double> shared;
     const auto neighbour = [&](std::size_t s) {
+      if (left_out[s]) return sliver;
       const std::size_t a = joined[shells.solid[shells.surface_faces + s]];
       const std::size_t b = joined[shells.solid[shells.surface_faces + shells.sheet_faces + s]];
       return a == b ? sliver : a == sliver ? b : b == sliver ? a : sliver;
@@ -134,30 +146,36 @@ struct CutPieces {
   bool clean;  ///< nowhere do sheet and surface pass through each other
 };
 
-CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
-                         double minimum_volume) {
+/// How a sheet cuts.
+struct SheetCut {
+  std::size_t first_triangle = 0;  ///< number of its first triangle among those of all sheets
+  double minimum_volume = 0;       ///< of the pieces it parts [m³]
+  bool slits = true;               ///< it also cuts where it parts nothing
+};
+
+CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, const SheetCut& how) {
   CutComplex cut = corefine(piece.mesh, sheet);
   if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
   remove_slivers(cut, piece.mesh, sheet, kSmallestHeight * mean_edge(sheet));
   split_edges_between_front_nodes(cut);
   Shells shells = glue(cut);
-  const std::vector<bool> left_out = faces_between_slivers(cut, shells, minimum_volume);
+  if (!how.slits) shells = glue(cut, slit_pieces(cut, shells));
+  const std::vector<bool> left_out = faces_between_slivers(cut, shells, how.minimum_volume);
   if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
-  return {separate(cut, shells, piece, first_sheet_triangle), shells.overlaps == 0};
+  return {separate(cut, shells, piece, how.first_triangle), shells.overlaps == 0};
 }
 
 /// Earlier cuts have left rounded nodes: where faces of theirs overlap by round-off, a sheet may not find a
 /// clean way through. Then it is moved by far less than any visible size.
-std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, std::size_t first_sheet_triangle,
-                             double minimum_volume) {
+std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const SheetCut& how) {
   constexpr std::array shares{0.0, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
   std::vector<Piece> fallback;
   std::exception_ptr failure;
   for (const double share : shares)
     try {
       CutPieces cut = share == 0
-                          ? cut_piece_once(piece, sheet, first_sheet_triangle, minimum_volume)
-                          : cut_piece_once(piece, nudged(sheet, share), first_sheet_triangle, minimum_volume);
+                          ? cut_piece_once(piece, sheet, how)
+                          : cut_piece_once(piece, nudged(sheet, share), how);
       if (cut.clean) return std::move(cut.pieces);
       if (fallback.empty()) fallback = std::move(cut.pieces);
     } catch (const ComputationError&) {
@@ -176,26 +194,16 @@ void weigh(Fragment& fragment, double density) {
   fragment.inertia = m.inertia;
 }
 
-}  // namespace
+std::vector<Piece> cut_pieces(const std::vector<Piece>& pieces, const TriMesh& sheet, const SheetCut& how) {
+  std::vector<Piece> next;
+  for (const Piece& piece : pieces)
+    for (Piece& part : cut_piece(piece, sheet, how))
+      next.push_back(std::move(part));
+  return next;
+}
 
-std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
-                                         const FragmentSettings& settings) {
-  const double body_volume = enclosed_volume(surface);
-  std::vector<Piece> pieces(1);
-  pieces[0].mesh = surface;
-  pieces[0].kind.assign(surface.triangle_count(), FaceKind::original);
-  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-    pieces[0].source.emplace_back(t);
-  std::size_t first_sheet_triangle = 0;
-  for (const TriMesh& sheet : sheets) {
-    std::vector<Piece> next;
-    for (const Piece& piece : pieces)
-      for (Piece& part :
-           cut_piece(piece, sheet, first_sheet_triangle, settings.minimum_volume_fraction * body_volume))
-        next.push_back(std::move(part));
-    pieces = std::move(next);
-    first_sheet_triangle += sheet.triangle_count();
-  }
+std::vector<Fragment> as_fragments(std::vector<Piece> pieces, const FragmentSettings& settings,
+                                   double body_volume) {
   std::vector<Fragment> fragments;
   for (Piece& piece : pieces) {
     Fragment fragment;
@@ -214,6 +222,36 @@ std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vect
   std::stable_sort(fragments.begin(), fragments.end(),
                    [&](const Fragment& x, const Fragment& y) { return size(x) > size(y); });
   return fragments;
+}
+
+}  // namespace
+
+std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
+                                         const FragmentSettings& settings) {
+  const double body_volume = enclosed_volume(surface);
+  std::vector<Piece> pieces(1);
+  pieces[0].mesh = surface;
+  pieces[0].kind.assign(surface.triangle_count(), FaceKind::original);
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
+    pieces[0].source.emplace_back(t);
+  SheetCut how{0, settings.minimum_volume_fraction * body_volume, true};
+  for (const TriMesh& sheet : sheets) {
+    pieces = cut_pieces(pieces, sheet, how);
+    how.first_triangle += sheet.triangle_count();
+  }
+  return as_fragments(std::move(pieces), settings, body_volume);
+}
+
+std::vector<Fragment> part_fragments(const std::vector<Fragment>& fragments, const TriMesh& surface,
+                                     std::size_t first_triangle, const FragmentSettings& settings) {
+  double body_volume = 0;
+  std::vector<Piece> pieces;
+  for (const Fragment& f : fragments) {
+    pieces.push_back({f.mesh, f.face_kind, f.source});
+    body_volume += f.volume;
+  }
+  const SheetCut how{first_triangle, settings.minimum_volume_fraction * body_volume, false};
+  return as_fragments(cut_pieces(pieces, surface, how), settings, body_volume);
 }
 
 }  // namespace conchoid

@@ -47,4 +47,10 @@ struct FragmentSettings {
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
                                          const FragmentSettings& settings);
 
+/// Cuts the pieces of a body once more, but only where the surface parts one of them: what of it would be a slit is
+/// left out.
+/// @param first_triangle  number of its first triangle among the sources of the faces
+std::vector<Fragment> part_fragments(const std::vector<Fragment>& pieces, const TriMesh& surface,
+                                     std::size_t first_triangle, const FragmentSettings& settings);
+
 }  // namespace conchoid

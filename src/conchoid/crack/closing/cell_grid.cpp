@@ -1,0 +1,142 @@
+#include "conchoid/crack/closing/cell_grid.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace conchoid {
+namespace {
+
+// Orthonormal, the first axis along the largest principal value of ∫ n nᵀ dA. Where two values are equal any
+// axes between them do.
+Mat3 axes_across(const TriMesh& sheets) {
+  Mat3 tensor = Mat3::Zero();
+  for (std::size_t t = 0; t < sheets.triangle_count(); ++t) {
+    const Vec3 a = area_vector(sheets, TriId(t));
+    if (const double area = a.norm(); area > 0) tensor += a * a.transpose() / area;
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(tensor);
+  Mat3 axes;
+  axes.col(0) = eigen.eigenvectors().col(2);
+  axes.col(1) = eigen.eigenvectors().col(1);
+  axes.col(2) = conchoid::cross(axes.col(0), axes.col(1));
+  return axes;
+}
+
+// Twice the area of (p, q, x) in the plane, the same number whichever of the two triangles along p q asks.
+double turn(const Vec2& p, NodeId a, const Vec2& q, NodeId b, const Vec2& x) {
+  if (b < a) return -turn(q, b, p, a, x);
+  return (q.x() - p.x()) * (x.y() - p.y()) - (q.y() - p.y()) * (x.x() - p.x());
+}
+
+// Of a point on the edge itself one of its triangles has it, the other has not.
+bool left_of(double turn, NodeId a, NodeId b) {
+  return turn > 0 || (turn == 0 && a < b);
+}
+
+// The lines of cells must not run along faces and edges that lie in the axes, as they do in bodies made by
+// program: shares of a cell by which they are off.
+constexpr std::array<double, 3> kOffset{0.2718281828, 0.3141592653, 0.2236067977};
+
+}  // namespace
+
+CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
+    : size_(size), axes_(axes_across(sheets)), origin_(Vec3::Zero()) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& x : body.positions) {
+    const Vec3 local = axes_.transpose() * x / size_;
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+  }
+  for (int a = 0; a < 3; ++a) {
+    count_[a] = static_cast<int>(std::ceil(high[a] - low[a])) + 3;
+    low[a] -= 1 + kOffset[a];
+  }
+  origin_ = size_ * (axes_ * low);
+  step_ = {static_cast<std::size_t>(count_[1]) * count_[2], static_cast<std::size_t>(count_[2]), 1};
+  inside_.assign(step_[0] * count_[0], 0);
+  wall_.assign(3 * inside_.size(), 0);
+  fill(body);
+  for (int axis = 0; axis < 3; ++axis) {
+    cross(body, axis, [&](std::size_t e, double, TriId, bool) { wall_[e] |= kSurface; });
+    cross(sheets, axis, [&](std::size_t e, double depth, TriId t, bool upwards) {
+      wall_[e] |= kSheet;
+      crossings_.push_back({e, depth, t, upwards});
+    });
+  }
+  std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
+    return std::tie(x.edge, x.depth, x.triangle) < std::tie(y.edge, y.depth, y.triangle);
+  });
+}
+
+std::array<int, 3> CellGrid::place(std::size_t cell) const {
+  return {static_cast<int>(cell / step_[0]), static_cast<int>(cell / step_[1] % count_[1]),
+          static_cast<int>(cell % count_[2])};
+}
+
+Vec3 CellGrid::center(std::size_t cell) const {
+  const auto [i, j, k] = place(cell);
+  return position({double(i), double(j), double(k)});
+}
+
+template <class Found>
+void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  std::vector<Vec3> local;
+  local.reserve(mesh.node_count());
+  for (const Vec3& x : mesh.positions)
+    local.push_back(axes_.transpose() * (x - origin_) / size_);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::array<NodeId, 3> n = mesh.corners[TriId(t)];
+    std::array<Vec3, 3> x{local[n[0].index()], local[n[1].index()], local[n[2].index()]};
+    std::array<Vec2, 3> p;
+    for (int v = 0; v < 3; ++v)
+      p[v] = {x[v][b], x[v][c]};
+    const double area = turn(p[0], n[0], p[1], n[1], p[2]);
+    if (area == 0) continue;
+    const bool upwards = area > 0;
+    if (!upwards) {
+      std::swap(n[1], n[2]);
+      std::swap(x[1], x[2]);
+      std::swap(p[1], p[2]);
+    }
+    const auto range = [&](int k, int most) {
+      const auto [low, high] = std::minmax({p[0][k], p[1][k], p[2][k]});
+      return std::pair{std::max(0, static_cast<int>(std::ceil(low))),
+                       std::min(most - 1, static_cast<int>(std::floor(high)))};
+    };
+    const auto [b0, b1] = range(0, count_[b]);
+    const auto [c0, c1] = range(1, count_[c]);
+    for (int i = b0; i <= b1; ++i)
+      for (int j = c0; j <= c1; ++j) {
+        const Vec2 q(i, j);
+        std::array<double, 3> w{};
+        bool in = true;
+        for (int v = 0; v < 3 && in; ++v) {
+          const int u = (v + 1) % 3;
+          w[(v + 2) % 3] = turn(p[v], n[v], p[u], n[u], q);
+          in = left_of(w[(v + 2) % 3], n[v], n[u]);
+        }
+        if (!in) continue;
+        const double z = (w[0] * x[0][axis] + w[1] * x[1][axis] + w[2] * x[2][axis]) / (w[0] + w[1] + w[2]);
+        const double below = std::floor(z);
+        if (below < 0 || below >= count_[axis] - 1) continue;
+        std::array<int, 3> at{};
+        at[axis] = static_cast<int>(below);
+        at[b] = i;
+        at[c] = j;
+        found(edge(cell(at[0], at[1], at[2]), axis), z - below, TriId(t), upwards);
+      }
+  }
+}
+
+// From the bottom of each line of cells, in and out at every crossing.
+void CellGrid::fill(const TriMesh& body) {
+  std::vector<std::uint8_t> odd(inside_.size(), 0);
+  cross(body, 0, [&](std::size_t e, double, TriId, bool) { odd[e / 3] ^= 1; });
+  for (std::size_t c = 0; c + step_[0] < inside_.size(); ++c)
+    inside_[c + step_[0]] = inside_[c] ^ odd[c];
+}
+
+}  // namespace conchoid

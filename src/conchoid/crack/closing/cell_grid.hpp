@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "conchoid/mesh/tri_mesh.hpp"
+
+namespace conchoid {
+
+/// Where the line between two neighbouring cells passes through a crack sheet.
+struct SheetCrossing {
+  std::size_t edge = 0;  ///< see CellGrid::edge
+  double depth = 0;      ///< share of the way from the lower cell to the upper one
+  TriId triangle;        ///< of the sheet
+  bool upwards = false;  ///< the upper cell lies on the side to which the triangle's normal points
+};
+
+/// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
+/// the same material exactly where a chain of neighbours leads from one to the other without a wall. The grid
+/// lies in the axes of the sheets' area tensor ∫ n nᵀ dA, the first across the cracks: what it says turns and
+/// moves with the body. Cells count along the third axis first.
+class CellGrid {
+ public:
+  /// @param body    closed, outward
+  /// @param sheets  open; may stick out of the body
+  /// @param size    edge of a cell [m]
+  CellGrid(const TriMesh& body, const TriMesh& sheets, double size);
+
+  double size() const { return size_; }
+  const std::array<int, 3>& count() const { return count_; }
+  std::size_t cells() const { return inside_.size(); }
+  std::size_t cell(int i, int j, int k) const {
+    return (static_cast<std::size_t>(i) * count_[1] + j) * count_[2] + k;
+  }
+  /// The next cell along an axis; there must be one.
+  std::size_t next(std::size_t cell, int axis) const { return cell + step_[axis]; }
+  std::array<int, 3> place(std::size_t cell) const;
+  Vec3 center(std::size_t cell) const;
+  /// In the body's coordinates, from places counted in cells.
+  Vec3 position(const Vec3& place) const { return origin_ + size_ * (axes_ * place); }
+  Vec3 place_of(const Vec3& position) const { return axes_.transpose() * (position - origin_) / size_; }
+
+  bool inside(std::size_t cell) const { return inside_[cell] != 0; }
+  /// The edge from a cell to the next one along an axis.
+  static std::size_t edge(std::size_t cell, int axis) { return 3 * cell + axis; }
+  bool open(std::size_t edge) const { return wall_[edge] == 0; }
+  /// Whether a crack, not the body's surface alone, stands between the two.
+  bool cracked(std::size_t edge) const { return (wall_[edge] & kSheet) != 0; }
+  /// By edge, then depth.
+  const std::vector<SheetCrossing>& crossings() const { return crossings_; }
+
+ private:
+  static constexpr std::uint8_t kSurface = 1, kSheet = 2;
+
+  /// Calls found(edge, depth, triangle, upwards) wherever lines of cells along `axis` cross the mesh; cells
+  /// outside of the grid are left out, their lines are not.
+  template <class Found>
+  void cross(const TriMesh& mesh, int axis, const Found& found) const;
+  void fill(const TriMesh& body);
+
+  double size_;
+  Mat3 axes_;  // columns
+  Vec3 origin_;
+  std::array<int, 3> count_{};
+  std::array<std::size_t, 3> step_{};
+  std::vector<std::uint8_t> inside_, wall_;
+  std::vector<SheetCrossing> crossings_;
+};
+
+}  // namespace conchoid

@@ -1,0 +1,68 @@
+#include "conchoid/crack/closing/last_ligament.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/crack/length_factors.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+
+namespace conchoid {
+namespace {
+
+double cell_size(const TriMesh& body, double target_edge) {
+  const Box box = bounding_box(body);
+  const double volume = std::abs((box.high - box.low).prod());
+  return std::max(target_edge / kCellsPerEdge, std::cbrt(volume / kMostCells));
+}
+
+TriMesh joined(const TriMesh& a, const TriMesh& b) {
+  TriMesh all = a;
+  all.positions.insert(all.positions.end(), b.positions.begin(), b.positions.end());
+  const auto moved = [&](NodeId n) { return NodeId(n.index() + a.node_count()); };
+  for (const auto& c : b.corners)
+    all.corners.push_back({moved(c[0]), moved(c[1]), moved(c[2])});
+  return all;
+}
+
+std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
+  std::vector<Vec3> faces;
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    for (int axis = 0; axis < 3 && grid.inside(c); ++axis) {
+      const std::size_t d = grid.next(c, axis);
+      if (grid.inside(d) && grid.open(CellGrid::edge(c, axis)) && partition.side[c] != partition.side[d])
+        faces.push_back(0.5 * (grid.center(c) + grid.center(d)));
+    }
+  return faces;
+}
+
+}  // namespace
+
+std::optional<LastLigament> find_last_ligament(const TriMesh& body, const TriMesh& sheets,
+                                               double target_edge) {
+  if (sheets.corners.empty()) return std::nullopt;
+  const CellGrid grid(body, sheets, cell_size(body, target_edge));
+  const std::vector<int> part = connected_parts(sheets);
+  const ClosestPointTree walls(joined(body, sheets));
+  const double cell_volume = std::pow(grid.size(), 3);
+  std::optional<LastLigament> best;
+  std::vector<bool> crack(sheets.triangle_count());
+  for (int p = 0; p <= *std::max_element(part.begin(), part.end()); ++p) {
+    for (std::size_t t = 0; t < crack.size(); ++t)
+      crack[t] = part[sheets.corners[TriId(t)][0].index()] == p;
+    CellPartition partition = minimal_cut(grid, crack);
+    const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
+    const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
+    if (std::min(upper, lower) < kFewestCells) continue;
+    std::vector<Vec3> faces = broken_faces(grid, partition);
+    double widest = 0;
+    for (const Vec3& x : faces)
+      widest = std::max(widest, walls.closest(x).squared_distance);
+    const double half_width = std::sqrt(widest);
+    if (best && best->half_width <= half_width) continue;
+    best = LastLigament{grid, std::move(partition), std::move(faces), half_width,
+                        cell_volume * static_cast<double>(std::min(upper, lower))};
+  }
+  return best;
+}
+
+}  // namespace conchoid

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "conchoid/crack/closing/minimal_cut.hpp"
+
+namespace conchoid {
+
+/// What still holds a body together that cracks have nearly divided: the cut with the least new surface that
+/// completes one of them, whichever way the cracks face, and whether it lies between two of them, between two
+/// parts of one front, or between a front and a surface.
+struct LastLigament {
+  CellGrid grid;
+  CellPartition partition;
+  std::vector<Vec3> faces;  ///< middles of the cells' faces that it breaks
+  double half_width = 0;    ///< largest distance of one of these from a crack or the body's surface [m]
+  double smaller_part = 0;  ///< volume of the smaller side [m³]
+};
+
+/// Of all connected cracks the ligament with the smallest half width; none where each would leave less crack
+/// than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of
+/// `target_edge`, or more where the body would have more than kMostCells.
+/// @param body    closed, outward
+/// @param sheets  all cracks, as fine as they are known; may stick out of the body
+std::optional<LastLigament> find_last_ligament(const TriMesh& body, const TriMesh& sheets, double target_edge);
+
+/// How a ligament's surface lies over the cracks it joins.
+struct LigamentOverlap {
+  double cells = 3.5;    ///< beyond a crack's end
+  double offset = 0.25;  ///< × cell, from the crack towards the upper side; beyond the crack at its own rim
+};
+
+/// The ligament's broken surface, ready to cut the body together with the sheets: smoothed between the cracks it
+/// joins, laid over what is near their fronts, crossing their faces once behind them and the body's surface, so
+/// that nothing leaks between, unless the cracks are uneven within a cell; then another overlap may do. What of it
+/// lies between two parts of one piece is not meant to be cut.
+TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap = {});
+
+}  // namespace conchoid

@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "conchoid/crack/closing/last_ligament.hpp"
+#include "conchoid/crack/length_factors.hpp"
+#include "conchoid/mesh/box_tree.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+
+namespace conchoid {
+namespace {
+
+using Link = std::pair<std::size_t, std::size_t>;  // of two cells: of the upper side, of the lower side
+
+// Six tetrahedra of a cube of cells, all about one diagonal, the same in every cube: faces of neighbours fit.
+// Corner bits: 1, 2, 4 for a step along axis 0, 1, 2.
+constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
+    {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
+
+std::vector<Edge> rim(const TriMesh& mesh) {
+  std::vector<Edge> edges;
+  for (const auto& c : mesh.corners)
+    for (int k = 0; k < 3; ++k)
+      edges.emplace_back(c[k], c[(k + 1) % 3]);
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> once;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i;
+    while (j < edges.size() && edges[j] == edges[i])
+      ++j;
+    if (j == i + 1) once.push_back(edges[i]);
+    i = j;
+  }
+  return once;
+}
+
+// Where a → b passes through the triangle, as a share of the way; none if it does not.
+std::optional<double> passes(const Vec3& a, const Vec3& b, const Triangle& x) {
+  const Vec3 n = area_vector2(x[0], x[1], x[2]);
+  const double along = n.dot(b - a);
+  if (along == 0) return std::nullopt;
+  const double s = n.dot(x[0] - a) / along;
+  if (s < 0 || s > 1) return std::nullopt;
+  const Vec3 y = a + s * (b - a);
+  for (int k = 0; k < 3; ++k)
+    if (n.dot(cross(x[(k + 1) % 3] - x[k], y - x[k])) < 0) return std::nullopt;
+  return s;
+}
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap)
+      : grid_(ligament.grid), overlap_(overlap), sheets_(sheets), tree_(sheets), side_(ligament.partition.side) {
+    spread_outside();
+    near_.assign(grid_.cells(), false);
+    for (const Vec3& x : ligament.faces)
+      mark_near(x);
+    // Wherever the cracks that part the two sides end: there they may not quite reach each other.
+    for (const Edge& e : rim(sheets))
+      mark_near(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
+  }
+
+  TriMesh run() {
+    march();
+    place();
+    smooth();
+    return std::move(mesh_);
+  }
+
+ private:
+  // Sides of the cells around the body: as those next to them inside.
+  void spread_outside() {
+    for (int round = 0; round < kCellsOutside; ++round) {
+      const std::vector<std::int8_t> before = side_;
+      for (std::size_t c = 0; c < grid_.cells(); ++c) {
+        if (before[c] != 0) continue;
+        int sum = 0;
+        bool any = false;
+        for_neighbours(c, [&](std::size_t d, int weight) {
+          sum += weight * before[d];
+          any = any || before[d] != 0;
+        });
+        if (any) side_[c] = static_cast<std::int8_t>(sum >= 0 ? 1 : -1);
+      }
+    }
+  }
+
+  template <class Visit>
+  void for_neighbours(std::size_t cell, const Visit& visit) const {
+    const auto at = grid_.place(cell);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k) {
+          const std::array<int, 3> to{at[0] + i, at[1] + j, at[2] + k};
+          if ((i != 0 || j != 0 || k != 0) && in_grid(to)) visit(grid_.cell(to[0], to[1], to[2]), 4 - std::abs(i) - std::abs(j) - std::abs(k));
+        }
+  }
+
+  bool in_grid(const std::array<int, 3>& at) const {
+    for (int a = 0; a < 3; ++a)
+      if (at[a] < 0 || at[a] >= grid_.count()[a]) return false;
+    return true;
+  }
+
+  void mark_near(const Vec3& x) {
+    const Vec3 local = grid_.place_of(x);
+    std::array<int, 3> at{};
+    const int reach = static_cast<int>(std::ceil(overlap_.cells));
+    const std::array<int, 3> middle{static_cast<int>(std::lround(local[0])),
+                                    static_cast<int>(std::lround(local[1])),
+                                    static_cast<int>(std::lround(local[2]))};
+    for (at[0] = middle[0] - reach; at[0] <= middle[0] + reach; ++at[0])
+      for (at[1] = middle[1] - reach; at[1] <= middle[1] + reach; ++at[1])
+        for (at[2] = middle[2] - reach; at[2] <= middle[2] + reach; ++at[2])
+          if (in_grid(at) && (Vec3(at[0], at[1], at[2]) - local).norm() <= overlap_.cells)
+            near_[grid_.cell(at[0], at[1], at[2])] = true;
+  }
+
+  // Marching tetrahedra between the two sides, from the lower to the upper.
+  void march() {
+    for (std::size_t c = 0; c < grid_.cells(); ++c) {
+      const auto at = grid_.place(c);
+      if (at[0] + 1 >= grid_.count()[0] || at[1] + 1 >= grid_.count()[1] || at[2] + 1 >= grid_.count()[2])
+        continue;
+      std::array<std::size_t, 8> corner{};
+      bool known = true;
+      int sum = 0;
+      for (int k = 0; k < 8; ++k) {
+        corner[k] = grid_.cell(at[0] + (k & 1), at[1] + (k >> 1 & 1), at[2] + (k >> 2 & 1));
+        known = known && near_[corner[k]] && side_[corner[k]] != 0;
+        sum += side_[corner[k]];
+      }
+      if (!known || std::abs(sum) == 8) continue;
+      for (const auto& t : kTetrahedra)
+        cut_tetrahedron({corner[t[0]], corner[t[1]], corner[t[2]], corner[t[3]]});
+    }
+  }
+
+  NodeId node(std::size_t upper, std::size_t lower) {
+    const auto [at, is_new] = nodes_.try_emplace(Link{upper, lower});
+    if (is_new) {
+      at->second = mesh_.positions.add(0.5 * (grid_.center(upper) + grid_.center(lower)));
+      links_.push_back({upper, lower});
+    }
+    return at->second;
+  }
+
+  void add(NodeId a, NodeId b, NodeId c, const Vec3& up) {
+    const auto& x = mesh_.positions;
+    if (area_vector2(x[a], x[b], x[c]).dot(up) < 0) std::swap(b, c);
+    mesh_.corners.push_back({a, b, c});
+  }
+
+  void cut_tetrahedron(const std::array<std::size_t, 4>& cells) {
+    std::vector<std::size_t> upper, lower;
+    Vec3 up = Vec3::Zero();
+    for (const std::size_t c : cells)
+      (side_[c] > 0 ? upper : lower).push_back(c);
+    if (upper.empty() || lower.empty()) return;
+    for (const std::size_t c : upper)
+      up += grid_.center(c) / static_cast<double>(upper.size());
+    for (const std::size_t c : lower)
+      up -= grid_.center(c) / static_cast<double>(lower.size());
+    if (upper.size() == 2) {
+      const NodeId a = node(upper[0], lower[0]), b = node(upper[0], lower[1]);
+      const NodeId c = node(upper[1], lower[1]), d = node(upper[1], lower[0]);
+      add(a, b, c, up);
+      add(a, c, d, up);
+    } else if (upper.size() == 1) {
+      add(node(upper[0], lower[0]), node(upper[0], lower[1]), node(upper[0], lower[2]), up);
+    } else {
+      add(node(upper[0], lower[0]), node(upper[1], lower[0]), node(upper[2], lower[0]), up);
+    }
+  }
+
+  // Nodes between cells that a crack parts lie beside it, on its upper side; at the rim of the surface on the
+  // other: so it crosses the crack there.
+  void place() {
+    on_rim_.assign(mesh_.node_count(), false);
+    for (const Edge& e : rim(mesh_))
+      on_rim_[e.a.index()] = on_rim_[e.b.index()] = true;
+    bound_.assign(mesh_.node_count(), false);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const Vec3 upper = grid_.center(links_[i].first), lower = grid_.center(links_[i].second);
+      const Box box{upper.cwiseMin(lower), upper.cwiseMax(lower)};
+      double best = 2;
+      Vec3 normal = Vec3::Zero();
+      for (const TriId t : tree_.overlapping(box))
+        if (const auto s = passes(lower, upper, sheets_.triangle(t)); s && std::abs(*s - 0.5) < std::abs(best - 0.5)) {
+          best = *s;
+          normal = unit_normal(sheets_, t);
+        }
+      if (best > 1) continue;
+      bound_[i] = true;
+      if (normal.dot(upper - lower) < 0) normal = -normal;
+      mesh_.positions[NodeId(i)] =
+          lower + best * (upper - lower) + (on_rim_[i] ? -1 : 1) * overlap_.offset * grid_.size() * normal;
+    }
+  }
+
+  // The others go to the middle of their neighbours, those on the rim only across the surface.
+  void smooth() {
+    std::vector<std::set<NodeId>> around(mesh_.node_count());
+    for (const auto& c : mesh_.corners)
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          if (k != l) around[c[k].index()].insert(c[l]);
+    for (int round = 0; round < kSmoothingRounds; ++round) {
+      const IdVector<NodeId, Vec3> before = mesh_.positions;
+      IdVector<NodeId, Vec3> normals(mesh_.node_count(), Vec3::Zero());
+      for (const auto& c : mesh_.corners)
+        for (const NodeId n : c)
+          normals[n] += area_vector2(before[c[0]], before[c[1]], before[c[2]]);
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        if (bound_[i] || around[i].empty()) continue;
+        Vec3 middle = Vec3::Zero();
+        for (const NodeId n : around[i])
+          middle += before[n] / static_cast<double>(around[i].size());
+        Vec3 step = middle - before[NodeId(i)];
+        if (on_rim_[i]) {
+          const Vec3 n = normals[NodeId(i)].normalized();
+          step = step.dot(n) * n;
+        }
+        mesh_.positions[NodeId(i)] += step;
+      }
+    }
+  }
+
+  const CellGrid& grid_;
+  LigamentOverlap overlap_;
+  const TriMesh& sheets_;
+  BoxTree tree_;
+  std::vector<std::int8_t> side_;
+  std::vector<bool> near_, bound_, on_rim_;
+  std::map<Link, NodeId> nodes_;
+  std::vector<Link> links_;
+  TriMesh mesh_;
+};
+
+}  // namespace
+
+TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap) {
+  return SurfaceMaker(ligament, sheets, overlap).run();
+}
+
+}  // namespace conchoid

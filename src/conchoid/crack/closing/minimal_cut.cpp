@@ -1,0 +1,115 @@
+#include "conchoid/crack/closing/minimal_cut.hpp"
+
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <cmath>
+#include <utility>
+
+#include "conchoid/crack/length_factors.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr int kFaceCost = 20;  // of one face of a cell, in whole numbers: exact, whatever the order of sums
+
+using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                                 boost::no_property, std::int32_t, std::int32_t>;
+using Arc = boost::graph_traits<Graph>::edge_descriptor;
+
+// Surplus of faces of the crack that look at each cell from its upper over those from its lower side.
+std::vector<int> faces_seen(const CellGrid& grid, const std::vector<bool>& crack) {
+  std::vector<int> seen(grid.cells(), 0);
+  const auto& crossings = grid.crossings();
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    const SheetCrossing& x = crossings[i];
+    if (!crack[x.triangle.index()]) continue;
+    const std::size_t low = x.edge / 3, high = grid.next(low, static_cast<int>(x.edge % 3));
+    if (i == 0 || crossings[i - 1].edge != x.edge) seen[low] += x.upwards ? -1 : 1;
+    if (i + 1 == crossings.size() || crossings[i + 1].edge != x.edge) seen[high] += x.upwards ? 1 : -1;
+  }
+  return seen;
+}
+
+// Arcs out of each vertex, one after the other; each with its capacity and its opposite.
+struct Network {
+  std::vector<std::pair<std::int32_t, std::int32_t>> arcs;
+  std::vector<int> capacity;
+  std::vector<std::size_t> opposite;
+};
+
+class NetworkBuilder {
+ public:
+  explicit NetworkBuilder(std::size_t vertices) : out_(vertices) {}
+  void connect(std::int32_t a, std::int32_t b, int there, int back) {
+    out_[a].push_back({b, there, out_[b].size()});
+    out_[b].push_back({a, back, out_[a].size() - 1});
+  }
+  Network build() const {
+    std::vector<std::size_t> first(out_.size() + 1, 0);
+    for (std::size_t v = 0; v < out_.size(); ++v)
+      first[v + 1] = first[v] + out_[v].size();
+    Network network;
+    for (std::size_t v = 0; v < out_.size(); ++v)
+      for (const Out& o : out_[v]) {
+        network.arcs.emplace_back(static_cast<std::int32_t>(v), o.to);
+        network.capacity.push_back(o.capacity);
+        network.opposite.push_back(first[o.to] + o.opposite);
+      }
+    return network;
+  }
+
+ private:
+  struct Out {
+    std::int32_t to;
+    int capacity;
+    std::size_t opposite;  // among those of `to`
+  };
+  std::vector<std::vector<Out>> out_;
+};
+
+}  // namespace
+
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack) {
+  std::vector<std::int32_t> vertex(grid.cells(), -1);
+  std::int32_t count = 0;
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    if (grid.inside(c)) vertex[c] = count++;
+  const std::int32_t source = count, sink = count + 1;
+  NetworkBuilder builder(static_cast<std::size_t>(count) + 2);
+  const std::vector<int> seen = faces_seen(grid, crack);
+  const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
+  for (std::size_t c = 0; c < grid.cells(); ++c) {
+    if (vertex[c] < 0) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      if (const std::size_t d = grid.next(c, axis); vertex[d] >= 0 && grid.open(CellGrid::edge(c, axis)))
+        builder.connect(vertex[c], vertex[d], kFaceCost, kFaceCost);
+    if (seen[c] > 0) builder.connect(source, vertex[c], unused * seen[c], 0);
+    if (seen[c] < 0) builder.connect(vertex[c], sink, -unused * seen[c], 0);
+  }
+  const Network network = builder.build();
+  const Graph graph(boost::edges_are_sorted, network.arcs.begin(), network.arcs.end(), count + 2);
+  std::vector<Arc> arcs, opposite;
+  for (auto [a, end] = boost::edges(graph); a != end; ++a)
+    arcs.push_back(*a);
+  for (const std::size_t o : network.opposite)
+    opposite.push_back(arcs[o]);
+  std::vector<int> residual = network.capacity, distance(count + 2);
+  std::vector<boost::default_color_type> color(count + 2);
+  std::vector<Arc> predecessor(count + 2);
+  const auto by_arc = boost::get(boost::edge_index, graph);
+  const auto by_vertex = boost::get(boost::vertex_index, graph);
+  boost::boykov_kolmogorov_max_flow(
+      graph, boost::make_iterator_property_map(network.capacity.begin(), by_arc),
+      boost::make_iterator_property_map(residual.begin(), by_arc),
+      boost::make_iterator_property_map(opposite.begin(), by_arc),
+      boost::make_iterator_property_map(predecessor.begin(), by_vertex),
+      boost::make_iterator_property_map(color.begin(), by_vertex),
+      boost::make_iterator_property_map(distance.begin(), by_vertex), by_vertex, source, sink);
+  CellPartition out;
+  out.side.assign(grid.cells(), 0);
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    if (vertex[c] >= 0) out.side[c] = color[vertex[c]] == color[source] ? 1 : -1;
+  return out;
+}
+
+}  // namespace conchoid

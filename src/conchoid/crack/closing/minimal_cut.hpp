@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "conchoid/crack/closing/cell_grid.hpp"
+
+namespace conchoid {
+
+/// A body's cells in two.
+struct CellPartition {
+  std::vector<std::int8_t> side;  ///< per cell: 1 or −1; 0 outside of the body
+};
+
+/// The division of the body with the least new surface that keeps the two sides of a crack apart: a minimal
+/// cut of the graph of cells, in which a face between neighbours costs its area where nothing stands between
+/// them and nothing where a crack does, and a face of the crack itself whose cell is on the wrong side costs
+/// `kUnusedFace` of its own. All on one side where that is cheaper: as long as what is left to break is not
+/// much smaller than the crack. Y. Boykov & V. Kolmogorov, An experimental comparison of min-cut/max-flow
+/// algorithms (2004).
+/// @param crack  per triangle of the grid's sheets: whether it belongs to the crack
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack);
+
+}  // namespace conchoid

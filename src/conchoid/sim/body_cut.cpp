@@ -1,0 +1,81 @@
+#include "conchoid/sim/body_cut.hpp"
+
+#include <fmt/core.h>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/crack/closing/last_ligament.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
+
+namespace conchoid {
+namespace {
+
+// Tried in turn.
+constexpr std::array<LigamentOverlap, 4> kOverlaps{{{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}}};
+
+FragmentSettings fragment_settings(const PreparedBody& body, const RunSpec& run) {
+  return {body.material.density, run.smallest_fragment, static_cast<std::size_t>(run.max_fragments)};
+}
+
+// What of the ligament's surface has parted pieces: of each face the side to which its normal points.
+TriMesh parting_faces(const std::vector<Fragment>& fragments, const TriMesh& surface, std::size_t first) {
+  TriMesh parting;
+  for (const Fragment& f : fragments) {
+    std::vector<TriId> faces;
+    for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
+      const std::size_t source = f.source[t].index();
+      if (f.face_kind[t] == FaceKind::fracture && source >= first &&
+          area_vector(f.mesh, TriId(t)).dot(area_vector(surface, TriId(source - first))) > 0)
+        faces.emplace_back(t);
+    }
+    parting = join({parting, submesh(f.mesh, faces)});
+  }
+  return parting;
+}
+
+}  // namespace
+
+TriMesh join(const std::vector<TriMesh>& sheets) {
+  TriMesh all;
+  for (const TriMesh& sheet : sheets) {
+    const std::size_t first = all.node_count();
+    all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
+    for (const auto& c : sheet.corners)
+      all.corners.push_back(
+          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
+  }
+  return all;
+}
+
+BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets) {
+  BodyCut cut;
+  cut.sheets = std::move(sheets);
+  try {
+    cut.fragments = cut_into_fragments(body.detailed, cut.sheets, fragment_settings(body, run));
+  } catch (const ComputationError& error) {  // folded over itself: the frames are still worth having
+    cut.warnings.push_back(
+        fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
+                    "as swept, the body is left whole",
+                    error.what()));
+    cut.fragments = cut_into_fragments(body.detailed, {}, fragment_settings(body, run));
+  }
+  return cut;
+}
+
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run) {
+  const TriMesh all = join(cut.sheets);
+  const auto ligament = find_last_ligament(body.detailed, all, body.crack_edge);
+  if (!ligament) return;
+  for (const LigamentOverlap& overlap : kOverlaps) try {
+      const TriMesh surface = ligament_surface(*ligament, all, overlap);
+      std::vector<Fragment> parts =
+          part_fragments(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
+      if (parts.size() < 2) continue;
+      cut.ligament = parting_faces(parts, surface, all.triangle_count());
+      cut.fragments = std::move(parts);
+      return;
+    } catch (const ComputationError&) {  // no clean way through
+      continue;
+    }
+}
+
+}  // namespace conchoid

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conchoid/sim/prepared_body.hpp"
+#include "conchoid/surface/fragments.hpp"
+
+namespace conchoid {
+
+/// The detailed body, cut by the visible crack surface.
+struct BodyCut {
+  std::vector<TriMesh> sheets;      ///< that cut it
+  TriMesh ligament;                 ///< the surface along which the last ligament broke; mostly empty
+  std::vector<Fragment> fragments;  ///< largest first, in the prepared body's coordinates
+  std::vector<std::string> warnings;
+  bool parted() const { return fragments.size() > 1; }
+};
+
+/// Cuts the body by the sheets as they are. Where they are folded beyond repair the body is left whole, with a
+/// warning. Pieces are as small and as many as the run's settings allow.
+BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets);
+
+/// Goes on with a cut that leaves one piece along what is left to break (find_last_ligament()), where there is
+/// such a ligament. Whether it is narrow, or bears its load, is not asked.
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run);
+
+/// Sheets as one mesh.
+TriMesh join(const std::vector<TriMesh>& sheets);
+
+}  // namespace conchoid
