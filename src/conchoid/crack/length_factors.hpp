@@ -141,6 +141,8 @@ inline constexpr double kAlikeSheets = 0.5;
 inline constexpr std::size_t kNeighbourEdges = 3;
 /// × r̄: widest ligament that breaks; about an element, what lies in it is not resolved.
 inline constexpr double kWidestLigament = 1.4;
+/// × r̄: thinner ones break whatever K is said to be at their rims: no element fits in between.
+inline constexpr double kThinnestLigament = 0.5;
 /// × r̄: to which wider ones are narrowed first, well below kWidestLigament.
 inline constexpr double kNarrowedLigament = 0.8;
 /// Cosine between the ways of two parts of a front: below it they come together.
@@ -189,6 +191,10 @@ inline constexpr int kFewestCells = 30;
 inline constexpr double kUnusedFace = 0.3;
 /// Cells by which it sticks out of the body.
 inline constexpr int kCellsOutside = 2;
+/// Cells within which it goes from one side of a crack to the other, at its rim.
+inline constexpr double kCrossingCells = 1.5;
+/// Passes in which nodes beside a crack slide along it: few, as they do not follow its curvature.
+inline constexpr int kSlidingRounds = 5;
 /// Passes over a ligament's surface: it is a few cells wide.
 inline constexpr int kSmoothingRounds = 40;
 

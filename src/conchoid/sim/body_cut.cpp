@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/crack/closing/last_ligament.hpp"
+#include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
@@ -61,21 +61,23 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
   return cut;
 }
 
-void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run) {
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
+                  const std::function<bool(const LastLigament&)>& breaks) {
   const TriMesh all = join(cut.sheets);
-  const auto ligament = find_last_ligament(body.detailed, all, body.crack_edge);
-  if (!ligament) return;
-  for (const LigamentOverlap& overlap : kOverlaps) try {
-      const TriMesh surface = ligament_surface(*ligament, all, overlap);
-      std::vector<Fragment> parts =
-          part_fragments(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
-      if (parts.size() < 2) continue;
-      cut.ligament = parting_faces(parts, surface, all.triangle_count());
-      cut.fragments = std::move(parts);
-      return;
-    } catch (const ComputationError&) {  // no clean way through
-      continue;
-    }
+  for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge)) {
+    if (!breaks(ligament)) continue;
+    for (const LigamentOverlap& overlap : kOverlaps) try {
+        const TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
+        std::vector<Fragment> parts =
+            part_fragments(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
+        if (parts.size() < 2) continue;
+        cut.ligament = parting_faces(parts, surface, all.triangle_count());
+        cut.fragments = std::move(parts);
+        return;
+      } catch (const ComputationError&) {  // no clean way through
+        continue;
+      }
+  }
 }
 
 }  // namespace conchoid

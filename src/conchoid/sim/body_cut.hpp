@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/sim/prepared_body.hpp"
 #include "conchoid/surface/fragments.hpp"
 
@@ -21,9 +23,10 @@ struct BodyCut {
 /// warning. Pieces are as small and as many as the run's settings allow.
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets);
 
-/// Goes on with a cut that leaves one piece along what is left to break (find_last_ligament()), where there is
-/// such a ligament. Whether it is narrow, or bears its load, is not asked.
-void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run);
+/// Goes on with a cut that leaves one piece: along the first of what is left to break (find_last_ligaments(), for the
+/// detailed body and these sheets) that `breaks` and parts the body.
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
+                  const std::function<bool(const LastLigament&)>& breaks);
 
 /// Sheets as one mesh.
 TriMesh join(const std::vector<TriMesh>& sheets);

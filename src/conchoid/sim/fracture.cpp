@@ -108,7 +108,10 @@ struct Fracture::State {
   bool solved() const { return !predictor && carried == 0; }
   std::vector<TriMesh> visible_sheets() const;
   bool separated();
-  bool ligament_breaks();
+  bool parts(const std::function<bool(const LastLigament&)>& breaks);
+  bool unresolved(std::size_t point) const;
+  bool driven(const LastLigament& ligament) const;
+  bool ligament_breaks(bool at_end);
 
   void start(StepReport& report);
   void start_cracks(StepReport& report);
@@ -121,42 +124,56 @@ struct Fracture::State {
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
   if (!settings.cut_before_separated) return true;
+  return parts([](const LastLigament&) { return true; });
+}
+
+bool Fracture::State::parts(const std::function<bool(const LastLigament&)>& breaks) {
   BodyCut cut = cut_body(*body, settings, visible_sheets());
-  if (!cut.parted()) cut_ligament(cut, *body, settings);
+  if (!cut.parted()) cut_ligament(cut, *body, settings, breaks);
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
   return parted.has_value();
 }
 
-// Whether what still holds the body together is too narrow for the elements and driven beyond what it bears.
-bool Fracture::State::ligament_breaks() {
-  if (body->infinite()) return false;
+// Points whose K the elements do not resolve, or whose way another crack bars.
+bool Fracture::State::unresolved(std::size_t i) const {
   const double r = body->crack_edge;
-  const auto& sheet = crack.sheet;
-  bool unresolved = carried > 0;
+  return !openings[i].known || crack.sheet.state[crack.points[i].node] == FrontState::arrested ||
+         opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r;
+}
+
+// Whether the crack would run on at the rim of the ligament.
+bool Fracture::State::driven(const LastLigament& ligament) const {
+  if (carried > 0 || ligament.faces.empty() || crack.points.empty()) return true;
+  for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    if (openings[i].known && decisions[i].drive <= decisions[i].toughness) continue;
+    const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
+    if (std::any_of(ligament.faces.begin(), ligament.faces.end(), [&](const Vec3& y) {
+          return (x - y).norm() < kWidestLigament * body->crack_edge;
+        }))
+      return true;
+  }
+  return false;
+}
+
+// Whether what still holds the body together breaks at once: driven beyond what it bears, and too narrow for
+// the elements, or, where no front can go on, whatever is left.
+bool Fracture::State::ligament_breaks(bool at_end) {
+  if (body->infinite() || openings.size() != crack.points.size()) return false;
+  bool any = at_end || carried > 0 || crack.points.empty();
   for (std::size_t i = 0; i < crack.points.size(); ++i)
-    unresolved = unresolved || sheet.state[crack.points[i].node] == FrontState::arrested ||
-                 opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r;
-  if (!unresolved) return false;
-  Clock clock;
-  const auto ligament = find_last_ligament(body->surface, fine.surface(), r);
+    any = any || unresolved(i);
+  if (!any) return false;
+  const double r = body->crack_edge;
+  const auto breaks = [&](const LastLigament& ligament) {
+    if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
+    return (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) && driven(ligament);
+  };
+  // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
+  const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
   if (getenv("LIG"))
-    fmt::print(stderr, "frame {}: ligament {} half {:.2f} smaller {:.3g} faces {} in {:.3f} s\n", frame, ligament.has_value(),
-               ligament ? ligament->half_width / r : 0, ligament ? ligament->smaller_part : 0,
-               ligament ? ligament->faces.size() : 0, clock.lap());
-  if (!ligament || ligament->half_width > 0.5 * kWidestLigament * r) return false;
-  bool driven = carried > 0 || ligament->faces.empty();
-  for (std::size_t i = 0; i < crack.points.size() && !driven; ++i)
-    driven = decisions[i].drive > decisions[i].toughness &&
-             std::any_of(ligament->faces.begin(), ligament->faces.end(), [&](const Vec3& x) {
-               return (x - sheet.mesh.positions[crack.points[i].node]).norm() < kWidestLigament * r;
-             });
-  if (!driven) return false;
-  if (!settings.cut_before_separated) return true;
-  BodyCut cut = cut_body(*body, settings, visible_sheets());
-  if (!cut.parted()) cut_ligament(cut, *body, settings);
-  if (getenv("LIG")) fmt::print(stderr, "  cut into {} in {:.3f} s\n", cut.fragments.size(), clock.lap());
-  if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
-  return parted.has_value();
+    for (const auto& l : ligaments) fmt::print(stderr, "frame {} end {}: half {:.2f} smaller {:.3g} faces {} driven {}\n", frame, at_end, l.half_width / body->crack_edge, l.smaller_part, l.faces.size(), driven(l));
+  if (std::none_of(ligaments.begin(), ligaments.end(), breaks)) return false;
+  return !settings.cut_before_separated || parts(breaks);
 }
 
 // One new crack at a time, where the stress as last solved exceeds the strength most.
@@ -257,7 +274,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     observer->on_opening(self);
   if (!predictor) history.remember(crack, openings);
   report.other_seconds = clock.lap();
-  if (ligament_breaks()) {
+  if (ligament_breaks(false)) {
     stop = StopReason::separated;
     return;
   }
@@ -274,7 +291,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const bool grown = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count() > before;
   const bool moved = body->toughness.homogeneous() ? !steps.empty() : grown;
   if (!moved && !new_crack)
-    stop = StopReason::arrested;
+    stop = ligament_breaks(true) ? StopReason::separated : StopReason::arrested;
   else if (separated())
     stop = StopReason::separated;
 }

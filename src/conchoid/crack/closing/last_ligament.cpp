@@ -37,32 +37,33 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
 
 }  // namespace
 
-std::optional<LastLigament> find_last_ligament(const TriMesh& body, const TriMesh& sheets,
-                                               double target_edge) {
-  if (sheets.corners.empty()) return std::nullopt;
-  const CellGrid grid(body, sheets, cell_size(body, target_edge));
+std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets,
+                                              double target_edge) {
+  if (sheets.corners.empty()) return {};
+  const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<int> part = connected_parts(sheets);
   const ClosestPointTree walls(joined(body, sheets));
-  const double cell_volume = std::pow(grid.size(), 3);
-  std::optional<LastLigament> best;
+  const double cell_volume = std::pow(grid->size(), 3);
+  std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());
   for (int p = 0; p <= *std::max_element(part.begin(), part.end()); ++p) {
     for (std::size_t t = 0; t < crack.size(); ++t)
       crack[t] = part[sheets.corners[TriId(t)][0].index()] == p;
-    CellPartition partition = minimal_cut(grid, crack);
+    CellPartition partition = minimal_cut(*grid, crack);
     const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
     const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
     if (std::min(upper, lower) < kFewestCells) continue;
-    std::vector<Vec3> faces = broken_faces(grid, partition);
+    std::vector<Vec3> faces = broken_faces(*grid, partition);
     double widest = 0;
     for (const Vec3& x : faces)
       widest = std::max(widest, walls.closest(x).squared_distance);
-    const double half_width = std::sqrt(widest);
-    if (best && best->half_width <= half_width) continue;
-    best = LastLigament{grid, std::move(partition), std::move(faces), half_width,
-                        cell_volume * static_cast<double>(std::min(upper, lower))};
+    found.push_back({grid, std::move(partition), std::move(faces), std::sqrt(widest),
+                     cell_volume * static_cast<double>(std::min(upper, lower))});
   }
-  return best;
+  std::stable_sort(found.begin(), found.end(), [](const LastLigament& x, const LastLigament& y) {
+    return x.half_width < y.half_width;
+  });
+  return found;
 }
 
 }  // namespace conchoid

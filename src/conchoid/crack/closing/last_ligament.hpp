@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "conchoid/crack/closing/minimal_cut.hpp"
 
@@ -10,19 +10,19 @@ namespace conchoid {
 /// completes one of them, whichever way the cracks face, and whether it lies between two of them, between two
 /// parts of one front, or between a front and a surface.
 struct LastLigament {
-  CellGrid grid;
+  std::shared_ptr<const CellGrid> grid;
   CellPartition partition;
   std::vector<Vec3> faces;  ///< middles of the cells' faces that it breaks
   double half_width = 0;    ///< largest distance of one of these from a crack or the body's surface [m]
   double smaller_part = 0;  ///< volume of the smaller side [m³]
 };
 
-/// Of all connected cracks the ligament with the smallest half width; none where each would leave less crack
-/// than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of
+/// The ligaments of all connected cracks, those with the smallest half width first. A crack has none where its cut
+/// would leave less of it than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of
 /// `target_edge`, or more where the body would have more than kMostCells.
 /// @param body    closed, outward
 /// @param sheets  all cracks, as fine as they are known; may stick out of the body
-std::optional<LastLigament> find_last_ligament(const TriMesh& body, const TriMesh& sheets, double target_edge);
+std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge);
 
 /// How a ligament's surface lies over the cracks it joins.
 struct LigamentOverlap {

@@ -52,7 +52,7 @@ std::optional<double> passes(const Vec3& a, const Vec3& b, const Triangle& x) {
 class SurfaceMaker {
  public:
   SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap)
-      : grid_(ligament.grid), overlap_(overlap), sheets_(sheets), tree_(sheets), side_(ligament.partition.side) {
+      : grid_(*ligament.grid), overlap_(overlap), sheets_(sheets), tree_(sheets), side_(ligament.partition.side) {
     spread_outside();
     near_.assign(grid_.cells(), false);
     for (const Vec3& x : ligament.faces)
@@ -175,32 +175,49 @@ class SurfaceMaker {
     }
   }
 
-  // Nodes between cells that a crack parts lie beside it, on its upper side; at the rim of the surface on the
-  // other: so it crosses the crack there.
+  // Nodes between cells that a crack parts lie beside it, on its upper side; towards the rim of the surface they
+  // go over to the other: so it crosses the crack there.
   void place() {
     on_rim_.assign(mesh_.node_count(), false);
     for (const Edge& e : rim(mesh_))
       on_rim_[e.a.index()] = on_rim_[e.b.index()] = true;
-    bound_.assign(mesh_.node_count(), false);
+    const std::vector<double> from_rim = cells_from_rim();
+    across_.assign(mesh_.node_count(), Vec3::Zero());
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Vec3 upper = grid_.center(links_[i].first), lower = grid_.center(links_[i].second);
       const Box box{upper.cwiseMin(lower), upper.cwiseMax(lower)};
       double best = 2;
       Vec3 normal = Vec3::Zero();
       for (const TriId t : tree_.overlapping(box))
-        if (const auto s = passes(lower, upper, sheets_.triangle(t)); s && std::abs(*s - 0.5) < std::abs(best - 0.5)) {
+        if (const auto s = passes(lower, upper, sheets_.triangle(t));
+            s && std::abs(*s - 0.5) < std::abs(best - 0.5)) {
           best = *s;
           normal = unit_normal(sheets_, t);
         }
       if (best > 1) continue;
-      bound_[i] = true;
       if (normal.dot(upper - lower) < 0) normal = -normal;
+      across_[i] = normal;
+      const double share = std::clamp(2 * from_rim[i] / kCrossingCells - 1, -1.0, 1.0);
       mesh_.positions[NodeId(i)] =
-          lower + best * (upper - lower) + (on_rim_[i] ? -1 : 1) * overlap_.offset * grid_.size() * normal;
+          lower + best * (upper - lower) + share * overlap_.offset * grid_.size() * normal;
     }
   }
 
-  // The others go to the middle of their neighbours, those on the rim only across the surface.
+  // Up to kCrossingCells, before anything is placed.
+  std::vector<double> cells_from_rim() const {
+    std::vector<double> cells(mesh_.node_count(), kCrossingCells);
+    TriMesh line;  // needles along the rim, for the tree
+    for (const Edge& e : rim(mesh_)) {
+      const NodeId a = line.positions.add(mesh_.positions[e.a]), b = line.positions.add(mesh_.positions[e.b]);
+      line.corners.push_back({a, b, b});
+    }
+    const ClosestPointTree tree(line);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      cells[i] = std::min(cells[i], std::sqrt(tree.closest(mesh_.positions[NodeId(i)]).squared_distance) / grid_.size());
+    return cells;
+  }
+
+  // To the middle of their neighbours: nodes beside a crack along it, those on the rim across the surface.
   void smooth() {
     std::vector<std::set<NodeId>> around(mesh_.node_count());
     for (const auto& c : mesh_.corners)
@@ -214,12 +231,15 @@ class SurfaceMaker {
         for (const NodeId n : c)
           normals[n] += area_vector2(before[c[0]], before[c[1]], before[c[2]]);
       for (std::size_t i = 0; i < around.size(); ++i) {
-        if (bound_[i] || around[i].empty()) continue;
+        const bool beside = !across_[i].isZero(0);
+        if (around[i].empty() || (beside && (on_rim_[i] || round >= kSlidingRounds))) continue;
         Vec3 middle = Vec3::Zero();
         for (const NodeId n : around[i])
           middle += before[n] / static_cast<double>(around[i].size());
         Vec3 step = middle - before[NodeId(i)];
-        if (on_rim_[i]) {
+        if (beside) {
+          step -= step.dot(across_[i]) * across_[i];
+        } else if (on_rim_[i]) {
           const Vec3 n = normals[NodeId(i)].normalized();
           step = step.dot(n) * n;
         }
@@ -233,7 +253,8 @@ class SurfaceMaker {
   const TriMesh& sheets_;
   BoxTree tree_;
   std::vector<std::int8_t> side_;
-  std::vector<bool> near_, bound_, on_rim_;
+  std::vector<bool> near_, on_rim_;
+  std::vector<Vec3> across_;  // normal of the crack a node lies beside; zero for the others
   std::map<Link, NodeId> nodes_;
   std::vector<Link> links_;
   TriMesh mesh_;
