@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libeigen3-dev libopenblas-dev libtbb-dev libfmt-dev libxxhash-dev libqhull-dev
-  nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
+  nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libboost-dev
   libembree-dev libpng-dev       # CONCHOID_WITH_PICTURES
   libhdf5-dev libxgboost-dev     # CONCHOID_WITH_LEARNING
 )
@@ -14,7 +14,7 @@ case ${1:-all} in
   program) ;;
   all)
     packages+=(
-      libopenvdb-dev libboost-dev  # CONCHOID_WITH_VDB
+      libopenvdb-dev               # CONCHOID_WITH_VDB
       libgtest-dev libbenchmark-dev libassimp-dev
     ) ;;
   *) echo "install-dependencies: '$1' is not known; choose from program, all" >&2; exit 2 ;;

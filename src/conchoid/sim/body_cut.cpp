@@ -74,7 +74,7 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
         cut.ligament = parting_faces(parts, surface, all.triangle_count());
         cut.fragments = std::move(parts);
         return;
-      } catch (const ComputationError&) {  // no clean way through
+      } catch (const std::runtime_error&) {  // no clean way through
         continue;
       }
   }

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/sim/run.hpp"
+#include "hollow_bodies.hpp"
+#include "scenes.hpp"
+
+// Bodies with several cracks, and bodies with holes, in tension: they come apart.
+namespace conchoid {
+namespace {
+
+RunResult run_text(const std::string& text) {
+  RunOptions options;
+  options.progress = false;
+  return run_scene(test::scene_from_text(text), options);
+}
+
+std::string glass() {
+  return test::material_text({.E = 7e10, .nu = 0.22, .strength = 4.5e7, .toughness = 7.5e5});
+}
+
+double area(const RunResult& result) {
+  return surface_area(result.crack);
+}
+
+void expect_pieces(const RunResult& result, std::size_t least) {
+  EXPECT_EQ(result.document.stop, StopReason::separated);
+  EXPECT_GE(result.fragments.size(), least);
+  double volume = 0;
+  for (const Fragment& f : result.fragments) {
+    EXPECT_TRUE(f.watertight);
+    volume += f.volume;
+  }
+  EXPECT_NEAR(volume, result.document.body_volume, 1e-9 * result.document.body_volume);
+}
+
+class SeveralCracks : public testing::TestWithParam<int> {};
+
+TEST_P(SeveralCracks, PartThePulledCube) {
+  const RunResult result = run_text("[body]\nmodel = 'cube'\n" + glass() +
+                                    test::boundary_text("z+", "traction", {0, 0, 6e7}) +
+                                    "[[boundary]]\nregion = 'z-'\nfixed = true\n[resolution]\nsurface = 0.02\n" +
+                                    fmt::format("[run]\nframes = 20\nmax_cracks = {}\n", GetParam()));
+  expect_pieces(result, 2);
+  EXPECT_LT(area(result), GetParam() + 1);
+}
+
+TEST_P(SeveralCracks, PartThePulledBar) {
+  const test::TemporaryFolder folder;
+  const TriMesh bar = box_mesh({0.02, 0.02, 0.1}, 4, 4, 20);
+  const Box box = bounding_box(bar);
+  const double e = 1e-4;
+  const RunResult result = run_text(
+      test::mesh_body_text(test::write_mesh_in(folder, "bar.obj", bar)) + glass() +
+      test::resolution_text(0.004, 0.0005) +
+      test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
+      test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
+      test::boundary_text("high", "traction", {0, 0, 6e7}) + "[[boundary]]\nregion = 'low'\nfixed = true\n" +
+      fmt::format("[run]\nframes = 30\nmax_cracks = {}\n", GetParam()));
+  expect_pieces(result, 2);
+  EXPECT_LT(area(result), (GetParam() + 1) * 0.02 * 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cracks, SeveralCracks, testing::Values(2, 3, 5));
+
+struct Hollow {
+  const char* name;
+  TriMesh mesh;
+  Vec3 crack;  ///< middle of the first crack, a rectangle across the wall
+  double width;
+  double crack_edge;
+};
+
+void PrintTo(const Hollow& body, std::ostream* out) {
+  *out << body.name;
+}
+
+class HollowBodies : public testing::TestWithParam<Hollow> {};
+
+// The crack goes round the hole and meets itself.
+TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
+  const Hollow& body = GetParam();
+  const test::TemporaryFolder folder;
+  const Box box = bounding_box(body.mesh);
+  const double e = 1e-6 * box.diagonal();
+  const RunResult result = run_text(
+      test::mesh_body_text(test::write_mesh_in(folder, "body.obj", body.mesh)) +
+      test::material_text({.toughness = 1e4}) + test::resolution_text(body.crack_edge, body.crack_edge / 6) +
+      test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
+      test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
+      test::boundary_text("high", "traction", {0, 0, 1e6}) +
+      test::boundary_text("low", "traction", {0, 0, -1e6}) +
+      fmt::format("[[crack]]\nkind = 'rectangle'\ncenter = {}\nedges = [[{}, 0, 0], [0, {}, 0]]\n",
+                  test::text(body.crack), body.width, 0.8) +
+      "[run]\nframes = 60\nmax_cracks = 0\n");
+  expect_pieces(result, 2);
+  EXPECT_EQ(result.fragments.size(), 2u);
+  double off = 0;
+  for (const Vec3& x : result.crack.positions)
+    off = std::max(off, std::abs(x.z() - body.crack.z()));
+  EXPECT_LT(off, 0.25 * body.crack_edge);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, HollowBodies,
+    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2},
+                    Hollow{"ThinnerTube", shapes::tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16},
+                    Hollow{"ThickTube", shapes::tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22},
+                    Hollow{"Cup", shapes::cup(), {1, 0, 0.31}, 1, 0.2}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace conchoid
