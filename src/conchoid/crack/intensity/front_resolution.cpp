@@ -36,8 +36,7 @@ struct FrontValues {
       const double share =
           std::clamp((change(K, i) - kResolvedChange) / (kUnresolvedChange - kResolvedChange), 0.0, 1.0);
       if (share == 0) continue;
-      const Vec3 mean =
-          0.5 * (K[previous_index(i, K.size(), closed)] + K[next_index(i, K.size(), closed)]);
+      const Vec3 mean = 0.5 * (K[previous_index(i, K.size(), closed)] + K[next_index(i, K.size(), closed)]);
       out[i] += 0.5 * share * (mean - K[i]);
     }
     return out;
