@@ -176,7 +176,8 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     FrontDecision d;
     d.drive = growth.law->drive(K);
     d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
-    const bool stays = crack.sheet.state[point.node] == FrontState::arrested || resolved[i].step == 0;
+    const bool stays = crack.sheet.state[point.node] == FrontState::arrested ||
+                       (resolved[i].pressed && !settings.published_compression);
     d.length = stays ? 0 : resolved[i].step * growth.law->length(d.drive, d.toughness, r);
     const bool ligament = opening_from_intensity(K, r, m).norm() > kLargestOpening * r;
     d.angle = ligament ? 0 : growth.law->direction(K);

@@ -7,7 +7,7 @@ std::vector<FrontResolution> resolve_points(const CrackState& crack,
                                             const ToughnessField& toughness, const ElasticConstants& m) {
   std::vector<FrontResolution> out;
   for (const FrontOpening& opening : openings)
-    out.push_back({opening.intensity, 1});
+    out.push_back({opening.intensity});
   for (const PointChain& chain : point_chains(crack)) {
     std::vector<Vec3> K;
     std::vector<double> K_c;

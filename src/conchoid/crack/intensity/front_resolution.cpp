@@ -64,7 +64,7 @@ std::vector<FrontResolution> resolve_along_front(const std::vector<Vec3>& K,
   for (std::size_t i = 0; i < K.size(); ++i) {
     out[i].intensity = smooth[i];
     out[i].step = 1 - (1 - kLeastUnresolvedStep) * std::clamp(values.change(smooth, i) - 1, 0.0, 1.0);
-    if (smooth[i][0] < 0 && greatest_hoop_intensity(smooth[i], m) < toughness[i]) out[i].step = 0;
+    out[i].pressed = smooth[i][0] < 0 && greatest_hoop_intensity(smooth[i], m) < toughness[i];
   }
   return out;
 }

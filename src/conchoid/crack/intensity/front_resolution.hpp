@@ -11,7 +11,8 @@ namespace conchoid {
 /// What may be done with K at a front point whose neighbours say otherwise.
 struct FrontResolution {
   Vec3 intensity = Vec3::Zero();  ///< K smoothed as far as it is not resolved [Pa·√m]
-  double step = 1;                ///< share of the law's step that it justifies, 0 … 1; 0: held
+  double step = 1;                ///< share of the law's step that it justifies, ≤ 1
+  bool pressed = false;           ///< closed by pressure, which sliding does not overcome
   /// Length it moves at most in a frame [m]. @param resolution  r̄ [m]
   double limit(double resolution) const {
     return step < 1 ? step * resolution : std::numeric_limits<double>::infinity();
@@ -30,8 +31,8 @@ double greatest_hoop_intensity(const Vec3& K, const ElasticConstants& m);
 ///   - K is smoothed by (¼, ½, ¼), two passes, in full from u_i = 1¼ on, not at all below ¾: a front on which
 ///     K is smooth keeps its bits;
 ///   - where u_i is still above 1 the step is shortened, to a quarter at u_i = 2 (K reversed);
-///   - a point under pressure, K_I < 0, stays unless sliding opens a kink against it: the greatest hoop
-///     intensity of (K_I, √(K_II² + K_III²/(1−ν))) reaches K_c.
+///   - a point under pressure, K_I < 0, is pressed unless sliding opens a kink against it: the greatest hoop
+///     intensity of (K_I, √(K_II² + K_III²/(1−ν))) reaches K_c. A front of closed faces stays there.
 /// @param K          in the frame of each node, in the order of the front [Pa·√m]
 /// @param toughness  K_c at each node [Pa·√m]
 /// @param closed     a ring
