@@ -172,14 +172,14 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontOpening& o = openings[i];
-    const Vec3& K = resolved[i].intensity;
+    const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
+    const Vec3& K = ligament ? o.intensity : resolved[i].intensity;  // what breaks anyway is not smoothed
     FrontDecision d;
     d.drive = growth.law->drive(K);
     d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
     const bool stays = crack.sheet.state[point.node] == FrontState::arrested ||
                        (resolved[i].pressed && !settings.published_compression);
     d.length = stays ? 0 : resolved[i].step * growth.law->length(d.drive, d.toughness, r);
-    const bool ligament = opening_from_intensity(K, r, m).norm() > kLargestOpening * r;
     d.angle = ligament ? 0 : growth.law->direction(K);
     report.largest_intensity = std::max(report.largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
