@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstdint>
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -36,7 +37,78 @@ struct Row {
   }
 };
 
+// Nodes whose normal openings z are coupled by `normal`, under forces f along z.
+struct Nodes {
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd f;
+
+  ContactReport close(Eigen::VectorXd& z) const {
+    const Eigen::Index n = f.size();
+    std::vector<OpeningConstraint> constraints;
+    for (Eigen::Index i = 0; i < n; ++i)
+      constraints.push_back({static_cast<std::size_t>(3 * i), Vec3::UnitZ()});
+    const auto solve = [&](double* b, std::size_t count) {
+      for (std::size_t c = 0; c < count; ++c) {
+        Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<3>> along(b + 3 * n * c + 2, n);
+        along = normal.llt().solve(Eigen::VectorXd(along));
+      }
+    };
+    std::vector<double> x(3 * n, 0.0);
+    for (Eigen::Index i = 0; i < n; ++i)
+      x[3 * i + 2] = f[i];
+    solve(x.data(), 1);
+    const ContactReport report = close_penetrating_faces(x, constraints, solve);
+    z.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      z[i] = x[3 * i + 2];
+    return report;
+  }
+
+  void expect_closed() const {
+    Eigen::VectorXd z;
+    const ContactReport report = close(z);
+    ASSERT_TRUE(report.converged) << report.penetration / report.largest_opening;
+    const Eigen::VectorXd force = normal * z - f;
+    const double tolerance = 2e-6 * report.largest_opening;
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      EXPECT_GE(z[i], -tolerance);
+      EXPECT_GE(force[i], -1e-7 * force.cwiseAbs().maxCoeff());
+      EXPECT_NEAR(z[i] * force[i], 0, tolerance * force.cwiseAbs().maxCoeff());
+    }
+  }
+};
+
 }  // namespace
+
+// Adding all nodes that pass through and releasing all that pull goes round in circles here.
+TEST(Contact, SetsOfTouchingNodesDoNotCycle) {
+  Nodes nodes{Eigen::MatrixXd(6, 6), Eigen::VectorXd(6)};
+  nodes.normal << 15.01, 10, 6, 6, 2, 0, 10, 8.01, 4, 3, 3, -3, 6, 4, 18.01, -2, 2, 0, 6, 3, -2, 10.01, 2, 6,
+      2, 3, 2, 2, 6.01, 0, 0, -3, 0, 6, 0, 11.01;
+  nodes.f << 3, 3, 3, 2, 1, -1;
+  nodes.expect_closed();
+}
+
+// Coupled by forces of both signs as strongly as can be, as on a crack that is rolled up.
+TEST(Contact, EveryStiffnessComesToAnEnd) {
+  std::uint32_t state = 1;
+  const auto draw = [&](int below) {
+    state = 1664525u * state + 1013904223u;
+    return static_cast<int>((state >> 16) % static_cast<std::uint32_t>(below));
+  };
+  for (int n : {5, 20, 60})
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      Eigen::MatrixXd factor(n, n);
+      Nodes nodes{Eigen::MatrixXd(), Eigen::VectorXd(n)};
+      for (Eigen::Index i = 0; i < n; ++i) {
+        nodes.f[i] = draw(9) - 4;
+        for (Eigen::Index j = 0; j < n; ++j)
+          factor(i, j) = draw(5) - 2;
+      }
+      nodes.normal = factor * factor.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+      nodes.expect_closed();
+    }
+}
 
 TEST(Contact, ClosedFacesCarryPressureAndOpenOnesNone) {
   const Row row;

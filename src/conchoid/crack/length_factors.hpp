@@ -35,6 +35,15 @@ inline constexpr double kFirstRowExcess = 1.022;
 /// Weight of the first row against the others: it scatters with the pattern of the mesh.
 inline constexpr double kFirstRowWeight = 0.02;
 
+/// Change of K from node to node over its size: below it K is smooth, as on any front away from a ligament …
+inline constexpr double kResolvedChange = 0.75;
+/// … and above it noise: an angle of 77° between the two.
+inline constexpr double kUnresolvedChange = 1.25;
+/// Passes of (1, 2, 1)/4 over K that is not resolved: a change of sign from node to node is gone after the first.
+inline constexpr int kIntensityPasses = 2;
+/// × the law's step, where K is reversed from node to node: the next frame may know better.
+inline constexpr double kLeastUnresolvedStep = 0.25;
+
 // Law and initiation (law/).
 
 /// × c_R: slowest motion of a point that moves at all, or nearly arrested fronts would take frames without end.

@@ -14,6 +14,7 @@
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -231,20 +232,23 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   const double r = body->crack_edge;
   std::vector<FrontStep> steps;
   decisions.clear();
+  const std::vector<FrontResolution> resolved = resolve_points(crack, openings, growth.toughness, m);
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontOpening& o = openings[i];
-    FrontDecision d;
-    d.drive = growth.law->drive(o.intensity);
-    d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
-    const bool arrested = crack.sheet.state[point.node] == FrontState::arrested;
-    d.length = arrested ? 0 : growth.law->length(d.drive, d.toughness, r);
     const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
-    d.angle = ligament ? 0 : growth.law->direction(o.intensity);
+    const Vec3& K = ligament ? o.intensity : resolved[i].intensity;  // what breaks anyway is not smoothed
+    FrontDecision d;
+    d.drive = growth.law->drive(K);
+    d.toughness = growth.toughness(crack.sheet.mesh.positions[point.node]).value;
+    const bool stays = crack.sheet.state[point.node] == FrontState::arrested ||
+                       (resolved[i].pressed && !settings.published_compression);
+    d.length = stays ? 0 : resolved[i].step * growth.law->length(d.drive, d.toughness, r);
+    d.angle = ligament ? 0 : growth.law->direction(K);
     report.largest_intensity = std::max(report.largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
-    if (d.length > 0 || (!arrested && d.drive > 0 && !body->toughness.homogeneous()))
-      steps.push_back({point.node, point.frame, d.angle, d.drive});
+    if (d.length > 0 || (!stays && d.drive > 0 && !body->toughness.homogeneous()))
+      steps.push_back({point.node, point.frame, d.angle, d.drive, resolved[i].limit(r)});
     if (!o.in_range && !warned) {
       warned = true;
       report.warnings.push_back(

@@ -271,9 +271,8 @@ const std::vector<Setting>& settings() {
        text,
        "",
        "\"closed\"",
-       "fronts under pressure: closed, they feel no K_I < 0; published, −K/compressive_factor drives them "
-       "where "
-       "compression dominates (with contact = false)",
+       "fronts under pressure: closed, they feel no K_I < 0, and stay where it outweighs sliding; published, "
+       "−K/compressive_factor drives them where compression dominates (with contact = false)",
        {},
        0,
        {"closed", "published"}},
