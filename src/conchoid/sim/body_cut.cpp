@@ -32,6 +32,18 @@ TriMesh parting_faces(const std::vector<Fragment>& fragments, const TriMesh& sur
   return parting;
 }
 
+// None where there is no clean way through.
+std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const TriMesh& surface, std::size_t first,
+                                const FragmentSettings& settings) {
+  try {
+    return part_fragments(fragments, surface, first, settings);
+  } catch (const ComputationError&) {
+    return {};
+  } catch (const InputError&) {  // the surface passes through itself
+    return {};
+  }
+}
+
 }  // namespace
 
 TriMesh join(const std::vector<TriMesh>& sheets) {
@@ -66,17 +78,14 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
   const TriMesh all = join(cut.sheets);
   for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge)) {
     if (!breaks(ligament)) continue;
-    for (const LigamentOverlap& overlap : kOverlaps) try {
-        const TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
-        std::vector<Fragment> parts =
-            part_fragments(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
-        if (parts.size() < 2) continue;
-        cut.ligament = parting_faces(parts, surface, all.triangle_count());
-        cut.fragments = std::move(parts);
-        return;
-      } catch (const std::runtime_error&) {  // no clean way through
-        continue;
-      }
+    for (const LigamentOverlap& overlap : kOverlaps) {
+      const TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
+      std::vector<Fragment> parts = parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
+      if (parts.size() < 2) continue;
+      cut.ligament = parting_faces(parts, surface, all.triangle_count());
+      cut.fragments = std::move(parts);
+      return;
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -110,8 +111,9 @@ struct Fracture::State {
   std::vector<TriMesh> visible_sheets() const;
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
-  bool unresolved(std::size_t point) const;
-  bool driven(const LastLigament& ligament) const;
+  bool nearly_through() const;
+  bool unresolved() const;
+  bool driven(const LastLigament& ligament, double factor) const;
   bool ligament_breaks(bool at_end);
 
   void start(StepReport& report);
@@ -135,18 +137,36 @@ bool Fracture::State::parts(const std::function<bool(const LastLigament&)>& brea
   return parted.has_value();
 }
 
-// Points whose K the elements do not resolve, or whose way another crack bars.
-bool Fracture::State::unresolved(std::size_t i) const {
-  const double r = body->crack_edge;
-  return !openings[i].known || crack.sheet.state[crack.points[i].node] == FrontState::arrested ||
-         opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r;
+// Whether one of the cracks has a wall, another crack or the body's surface, close before it all along its
+// fronts: else no ligament can be narrow.
+bool Fracture::State::nearly_through() const {
+  const double reach = kWidestLigament * body->crack_edge;
+  const ClosestPointTree walls(join({body->surface, crack.trimmed}));
+  const std::vector<int> part = connected_parts(crack.sheet.mesh);
+  std::vector<bool> through(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()), true);
+  for (const FrontPoint& point : crack.points) {
+    const Vec3 ahead = crack.sheet.mesh.positions[point.node] + reach * point.frame.e2;
+    const double gap = std::sqrt(walls.closest(ahead).squared_distance);
+    if (gap > kCrackAhead * reach) through[part[point.node.index()]] = false;
+  }
+  return std::find(through.begin(), through.end(), true) != through.end();
 }
 
-// Whether the crack would run on at the rim of the ligament.
-bool Fracture::State::driven(const LastLigament& ligament) const {
+// Whether the elements cannot resolve the opening somewhere, or another crack bars a front's way.
+bool Fracture::State::unresolved() const {
+  const double r = body->crack_edge;
+  for (std::size_t i = 0; i < crack.points.size(); ++i)
+    if (!openings[i].known || crack.sheet.state[crack.points[i].node] == FrontState::arrested ||
+        opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r)
+      return true;
+  return crack.points.empty();
+}
+
+// Whether the crack would run on at the rim of the ligament, even if K were less by a factor.
+bool Fracture::State::driven(const LastLigament& ligament, double factor) const {
   if (carried > 0 || ligament.faces.empty() || crack.points.empty()) return true;
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
-    if (openings[i].known && decisions[i].drive <= decisions[i].toughness) continue;
+    if (openings[i].known && decisions[i].drive <= factor * decisions[i].toughness) continue;
     const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
     if (std::any_of(ligament.faces.begin(), ligament.faces.end(), [&](const Vec3& y) {
           return (x - y).norm() < kWidestLigament * body->crack_edge;
@@ -160,19 +180,15 @@ bool Fracture::State::driven(const LastLigament& ligament) const {
 // the elements, or, where no front can go on, whatever is left.
 bool Fracture::State::ligament_breaks(bool at_end) {
   if (body->infinite() || openings.size() != crack.points.size()) return false;
-  bool any = at_end || carried > 0 || crack.points.empty();
-  for (std::size_t i = 0; i < crack.points.size(); ++i)
-    any = any || unresolved(i);
-  if (!any) return false;
+  if (!at_end && carried == 0 && !nearly_through() && !unresolved()) return false;
   const double r = body->crack_edge;
   const auto breaks = [&](const LastLigament& ligament) {
     if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
-    return (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) && driven(ligament);
+    if (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) return driven(ligament, 1);
+    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r && driven(ligament, kOverload);
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
-  if (getenv("LIG"))
-    for (const auto& l : ligaments) fmt::print(stderr, "frame {} end {}: half {:.2f} smaller {:.3g} faces {} driven {}\n", frame, at_end, l.half_width / body->crack_edge, l.smaller_part, l.faces.size(), driven(l));
   if (std::none_of(ligaments.begin(), ligaments.end(), breaks)) return false;
   return !settings.cut_before_separated || parts(breaks);
 }
