@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "conchoid/crack/fine/fine_front.hpp"
+#include "conchoid/sim/opening_source.hpp"
+#include "conchoid/sim/prepared_body.hpp"
+
+namespace conchoid {
+
+/// Directions of a frame corrected at its middle (Heun's rule): the frame is made on a copy of the crack and
+/// solved, and each point that has moved there turns by half of what its successor would turn further,
+///     θ ← θ + ½ θ(K at the successor)                                          docs/theory.md (S11)
+/// so that the path is of second order in r̄ and does not swing about the one on which K_II vanishes. Only
+/// where some point turns by more than kCorrectedTurn: a crack that goes straight on costs no second solution.
+/// Steps stay as they are where the frame on trial separates the body or cannot be solved.
+/// @param bem  holds the solution of the frame on trial afterwards, if there was one
+void correct_directions(std::vector<FrontStep>& steps, const CrackState& crack, const FineFront& fine,
+                        const GrowthModel& growth, const PreparedBody& body, BemOpening& bem);
+
+}  // namespace conchoid
