@@ -12,8 +12,8 @@
 namespace conchoid {
 namespace {
 
-constexpr double kCorrectedTurn = 0.1;  // rad: less turns the path by less than its noise
-constexpr double kShare = 0.5;          // of the further turn
+constexpr double kCorrectedTurn = 0.05;  // rad: less is noise of K, and leaves the path within r̄/40 of it
+constexpr double kShare = 0.5;           // of the further turn
 
 // Old front node of each new one that it moved to.
 std::unordered_map<NodeId, NodeId> moved_from(const AdvanceResult& result) {
