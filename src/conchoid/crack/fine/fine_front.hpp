@@ -110,7 +110,7 @@ class FineFront {
   /// What holds for all markers in a part of a frame.
   struct SubStep {
     int per_frame = 1;            ///< so many make a frame
-    double turned = 1;            ///< share of the way from the old direction to the new one; its mean is 1
+    double turned = 1;            ///< share of the way from the old direction to the new one
     std::vector<Toughness> here;  ///< per marker
     std::vector<Vec3> smooth;     ///< where it would be without detail; empty where nothing varies
   };
