@@ -43,7 +43,7 @@ TEST(FlushCracks, AQuarterDiscAtAnEdgeLeavesNoSlivers) {
     const Pieces pieces =
         cut(disc_crack({0.5, 0.5, height}, Vec3::UnitZ(), 0.25, {.edge = kEdge}, Vec3::UnitX()));
     EXPECT_GT(pieces.worst, 5e-3) << height;
-    EXPECT_NEAR(pieces.area / (std::numbers::pi * 0.25 * 0.25 / 4), 1, 0.02) << height;
+    EXPECT_NEAR(pieces.area / (std::numbers::pi * 0.25 * 0.25 / 4), 1, 0.03) << height;
   }
 }
 
