@@ -45,6 +45,7 @@ std::unordered_map<NodeId, double> turns_ahead(const CrackState& trial, const Ad
 
 void correct_directions(std::vector<FrontStep>& steps, const CrackState& crack, const FineFront& fine,
                         const GrowthModel& growth, const PreparedBody& body, BemOpening& bem) {
+  if (!body.toughness.homogeneous()) return;
   const auto turns = [](const FrontStep& step) { return std::abs(step.angle) > kCorrectedTurn; };
   if (std::none_of(steps.begin(), steps.end(), turns)) return;
   CrackState trial = crack;

@@ -13,7 +13,8 @@ namespace conchoid {
 ///     θ ← θ + ½ θ(K at the successor)                                          docs/theory.md (S11)
 /// so that the path is of second order in r̄ and does not swing about the one on which K_II vanishes. Only
 /// where some point turns by more than kCorrectedTurn: a crack that goes straight on costs no second solution.
-/// Steps stay as they are where the frame on trial separates the body or cannot be solved.
+/// Where the toughness varies the markers find their way themselves, and what is left at the end of a frame is their
+/// doing. Steps stay as they are there, and where the frame on trial separates the body or cannot be solved.
 /// @param bem  holds the solution of the frame on trial afterwards, if there was one
 void correct_directions(std::vector<FrontStep>& steps, const CrackState& crack, const FineFront& fine,
                         const GrowthModel& growth, const PreparedBody& body, BemOpening& bem);
