@@ -79,7 +79,9 @@ TEST(KinkedStrip, TwoRowsAfterAKinkTheIntensityIsThatOfTheKinkedCrack) {
                         {70, 5e5, 2, 1.751, -0.369},
                         {70, 2e5, 2, 1.082, -0.379}}) {
     const Vec3 K = intensity(-k.degrees * std::numbers::pi / 180, k.rows, k.shear);
-    EXPECT_NEAR(K[1], k.second, 0.04 * k.first) << k.degrees << "°, " << k.rows << " rows";
+    const double limit =
+        k.degrees > 60 ? 0.05 : 0.03;  // of K_I; beyond 60° an opening at the kink is mostly its own
+    EXPECT_NEAR(K[1], k.second, limit * k.first) << k.degrees << "°, " << k.rows << " rows";
     EXPECT_NEAR(K[0], k.first, 0.06 * k.first) << k.degrees << "°, " << k.rows << " rows";
   }
 }

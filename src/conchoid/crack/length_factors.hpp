@@ -37,7 +37,7 @@ inline constexpr double kFirstRowWeight = 0.02;
 
 /// Of θ⁴, θ³, θ³ and θ² in what a kink θ does to the opening at it: fitted to kinked cracks in the plane of 8 … 70°
 /// and 1 … 3 r̄ long, against displacement discontinuities of r̄/20 (docs/verification.md).
-inline constexpr std::array<double, 4> kKinkRates{0.071, 0.21, 0.11, 0.31};
+inline constexpr std::array<double, 4> kKinkRates{0.071, 0.21, 0.10, 0.31};
 /// Of the weights of all samples, that those not behind a kink must have: less is a strip too thin to read from,
 /// and the rows behind it say more.
 inline constexpr double kLeastShareAhead = 2e-3;

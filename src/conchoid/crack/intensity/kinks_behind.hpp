@@ -26,7 +26,7 @@ double share_behind_turn(double turn);
 /// Rate Δu/√r that a straight crack of the same K has in place of that at a kink of angle θ, r = b in front of
 /// which the front lies:  Δu(b)/√b = M(θ) (K's rate),
 ///     M = | 1 + 0.071 θ⁴    −0.21 θ³       0              |
-///         | −0.11 θ³        1 + 0.31 θ²    0              |      docs/theory.md (S10)
+///         | −0.10 θ³        1 + 0.31 θ²    0              |      docs/theory.md (S10)
 ///         | 0               0              (1 − θ²/π²)^−½ |
 /// No smooth law reaches beyond a kink, but at the kink itself its own size, the length b of what is in front
 /// of it, is the only one there is, so that M depends on θ alone as long as b is small against the crack.
