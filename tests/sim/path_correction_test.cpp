@@ -53,7 +53,7 @@ TEST(PathCorrection, ACrackThatGoesStraightOnIsLeftAlone) {
   EXPECT_EQ(penny.bem.body().opening().size(), solved) << "nothing was solved again";
 }
 
-TEST(PathCorrection, EachPointTurnsByHalfOfWhatItsSuccessorWould) {
+TEST(PathCorrection, EachPointThatTurnsDoesSoByHalfOfWhatItsSuccessorWould) {
   Penny penny(8e5);
   const auto before = penny.steps;
   CrackState next = penny.crack;
@@ -72,7 +72,8 @@ TEST(PathCorrection, EachPointTurnsByHalfOfWhatItsSuccessorWould) {
             before[k].node != s.first)
           continue;
         const double further = penny.growth.law->direction(openings[i].intensity);
-        EXPECT_NEAR(penny.steps[k].angle, before[k].angle + 0.5 * further, 1e-6);
+        const double share = std::abs(before[k].angle) > 0.05 ? 0.5 : 0;
+        EXPECT_NEAR(penny.steps[k].angle, before[k].angle + share * further, 1e-6);
         most = std::max(most, std::abs(further));
         ++compared;
       }

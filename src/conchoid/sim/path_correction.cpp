@@ -62,7 +62,7 @@ void correct_directions(std::vector<FrontStep>& steps, const CrackState& crack, 
   }
   constexpr double most = 0.5 * std::numbers::pi;
   for (FrontStep& step : steps)
-    if (const auto at = further.find(step.node); at != further.end())
+    if (const auto at = further.find(step.node); at != further.end() && turns(step))
       step.angle = std::clamp(step.angle + kShare * at->second, -most, most);
 }
 

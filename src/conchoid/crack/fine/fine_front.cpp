@@ -56,20 +56,6 @@ Vec3 smooth_middle(const StripCurve& curve, std::size_t a, std::size_t b) {
   return middle + 0.125 * (middle - 0.5 * (at(before) + at(after)));
 }
 
-/// Share of the way from the last direction to the new one at which a marker goes in a sub-step, rising over
-/// `turn_within` of a frame. In homogeneous material it rises to more than 1, so that its mean is 1 and the
-/// frame's way as a whole has the new direction; else the markers find their way themselves.
-double share_turned(const FineFrontSettings& settings, int sub_step, bool homogeneous) {
-  const auto rising = [&](int k) {
-    return std::min(1.0, (k + 1) / (settings.sub_steps * settings.turn_within));
-  };
-  if (!homogeneous) return rising(sub_step);
-  double mean = 0;
-  for (int k = 0; k < settings.sub_steps; ++k)
-    mean += rising(k) / settings.sub_steps;
-  return rising(sub_step) / mean;
-}
-
 std::size_t index_of(const MarkerCurve& curve, NodeId coarse) {
   const auto at = std::find_if(curve.markers.begin(), curve.markers.end(),
                                [&](const Marker& m) { return m.coarse == coarse; });
@@ -209,13 +195,14 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     const double begin = static_cast<double>(step) / count;
     SubStep part;
     part.per_frame = count;
+    if (settings_.turn_within > 0)
+      part.turned = std::min(1.0, (step / parts + 1) / (settings_.sub_steps * settings_.turn_within));
     std::vector<Vec3> from;
     for (const Marker& marker : curve.markers) {
       from.push_back(marker.position);
       part.here.push_back(model.toughness(marker.position));
       varied_ = varied_ || !part.here.back().gradient.isZero(0);
     }
-    if (settings_.turn_within > 0) part.turned = share_turned(settings_, step / parts, !varied_);
     if (varied_) {
       part.smooth = smooth_front(begin);
       track.add(begin, curve, part.smooth, steps.size());

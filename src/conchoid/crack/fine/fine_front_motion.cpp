@@ -27,7 +27,7 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
     if (!(length[i] > 0)) continue;
     frame[i] = steps.frame(marker.parameter);
     angle[i] = steps.angle(marker.parameter);
-    if (part.turned != 1 && !marker.direction_before.isZero(0)) {
+    if (part.turned < 1 && !marker.direction_before.isZero(0)) {
       const double before =
           std::atan2(marker.direction_before.dot(frame[i].e1), marker.direction_before.dot(frame[i].e2));
       angle[i] = (1 - part.turned) * before + part.turned * angle[i];
