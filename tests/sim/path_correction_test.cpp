@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
