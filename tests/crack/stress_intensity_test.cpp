@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "conchoid/crack/intensity/kinks_behind.hpp"
+#include "conchoid/crack/length_factors.hpp"
 #include "crack_samples.hpp"
 
 using namespace conchoid;
@@ -236,4 +238,90 @@ TEST(StressIntensities, MirroredCracksHaveMirroredIntensities) {
       }
     }
   }
+}
+
+namespace {
+
+/// A sheet of 12 × `arm` + 6 rows of unit cells, its last `arm` rows turned by the angle from e2 towards e1; K
+/// in front of the kink, at it what a kink makes of K, behind it openings of no meaning.
+std::vector<Vec3> intensities_of_kinked_sheet(int arm, double angle, const Vec3& K, double behind) {
+  TriMesh mesh = rectangle(6 + arm, 12, 6 + arm, 12);
+  const Vec3 e2(std::cos(angle), 0, std::sin(angle)), e1(-std::sin(angle), 0, std::cos(angle));
+  const Vec3 straight = opening_from_intensity(K, 1, kGlass);
+  const double a = std::abs(angle), s = angle < 0 ? -1 : 1;
+  const double m11 = 1 + kKinkRates[0] * std::pow(a, 4), m12 = -s * kKinkRates[1] * std::pow(a, 3);
+  const double m21 = -s * kKinkRates[2] * std::pow(a, 3), m22 = 1 + kKinkRates[3] * a * a;
+  const Vec3 at_kink(m11 * straight[0] + m12 * straight[1], m21 * straight[0] + m22 * straight[1], 0);
+  IdVector<NodeId, Vec3> opening;
+  for (Vec3& x : mesh.positions) {
+    const double beyond = x.x() - 6, r = arm - beyond;
+    if (beyond > 0) x = Vec3(6, x.y(), 0) + beyond * e2;
+    const Vec3 rate = beyond > 0 ? straight : at_kink;
+    const Vec3 inside = std::sqrt(r) * (rate[0] * e1 + rate[1] * e2);
+    opening.push_back(beyond < 0 ? Vec3(behind * inside) : inside);
+  }
+  std::vector<Edge> mouth;  // all but the turned end
+  const int n = 7 + arm;
+  for (int i = 0; i + 1 < n; ++i)
+    mouth.insert(mouth.end(),
+                 {Edge(NodeId(i), NodeId(i + 1)), Edge(NodeId(12 * n + i), NodeId(12 * n + i + 1))});
+  for (int j = 0; j < 12; ++j)
+    mouth.emplace_back(NodeId(j * n), NodeId((j + 1) * n));
+  std::sort(mouth.begin(), mouth.end());
+  const auto fronts = find_fronts(mesh, mouth);
+  EXPECT_EQ(fronts.size(), 1u);
+  return stress_intensities(mesh, fronts[0], opening, kGlass, exact());
+}
+
+}  // namespace
+
+TEST(StressIntensities, DoNotRememberWhatLiesBehindAKink) {
+  const Vec3 K(1, -0.3, 0);
+  for (int arm : {1, 2, 3})
+    for (double angle : {-1.2, -0.6, 0.4, 0.9})
+      for (double behind : {0.5, 2.0})
+        for (const Vec3& k : intensities_of_kinked_sheet(arm, angle, K, behind)) {
+          EXPECT_NEAR(k[0], K[0], 1e-3) << arm << " rows, " << angle;
+          EXPECT_NEAR(k[1], K[1], 1e-3) << arm << " rows, " << angle;
+        }
+}
+
+TEST(StressIntensities, ASmoothTurnIsNoKink) {
+  EXPECT_EQ(share_behind_turn(kSmoothSurfaceTurn), 1);
+  EXPECT_EQ(share_behind_turn(2 * kSmoothSurfaceTurn), 0);
+  const Vec3 rate(1, 2, 3);
+  EXPECT_EQ(without_kink(rate, kSmoothSurfaceTurn), rate);
+  EXPECT_EQ(without_kink(rate, 0), rate);
+}
+
+// Antiplane shear: the kinked half-plane is mapped by (t − 1 + m)^(1−m) (t + 1 + m)^(1+m), m = θ/π.
+TEST(StressIntensities, AKinkUnderAntiplaneShearIsThatOfTheMap) {
+  for (double m : {0.2, 0.35}) {
+    const double length = std::pow(1 - m, 1 - m) * std::pow(1 + m, 1 + m), curvature = length / (1 - m * m);
+    const double opening = 2, straight = 2 * std::sqrt(length / curvature);
+    const Vec3 rate = without_kink({0, 0, opening / straight}, m * std::numbers::pi);
+    EXPECT_NEAR(rate[2], 1, 1e-12);
+  }
+}
+
+// Front edges of 1 and ½: two edges to either side are shorter than what is fitted.
+TEST(StressIntensities, UnevenFrontEdgesDoNotMisplaceTheSamples) {
+  TriMesh mesh = rectangle(6, 16, 6, 16);
+  std::vector<double> y{0};
+  for (int j = 0; j < 16; ++j)
+    y.push_back(y.back() + (j == 7 || j == 8 ? 1.0 : 0.4));
+  IdVector<NodeId, Vec3> opening;
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) {
+    Vec3& x = mesh.positions[NodeId(i)];
+    x.y() = y[i / 7];
+    opening.push_back(opening_from_intensity({1, 0, 0}, 6 - x.x(), kGlass)[0] * Vec3::UnitZ());
+  }
+  std::vector<Edge> mouth;
+  for (int i = 0; i < 6; ++i)
+    mouth.insert(mouth.end(), {Edge(NodeId(i), NodeId(i + 1)), Edge(NodeId(112 + i), NodeId(112 + i + 1))});
+  for (int j = 0; j < 16; ++j)
+    mouth.emplace_back(NodeId(7 * j), NodeId(7 * j + 7));
+  std::sort(mouth.begin(), mouth.end());
+  for (const Vec3& k : stress_intensities(mesh, find_fronts(mesh, mouth)[0], opening, kGlass, exact()))
+    EXPECT_NEAR(k[0], 1, 1e-3);
 }

@@ -195,5 +195,12 @@ TEST(ExtendSheetBeyond, InnerEdgesAreRefused) {
   EXPECT_THROW(extend_sheet_beyond(disc, boundary_edges(disc), 0.0), InputError);
 }
 
+// Three edges across, each a third of those along: the inner nodes of both sides do not pass each other.
+TEST(RectangleCrack, AThinOneDoesNotFold) {
+  for (double width : {0.03, 0.05, 0.08})
+    expect_plane_sheet(rectangle_crack(Vec3::Zero(), {1, 0, 0}, {0, width, 0}, {.edge = 0.05}),
+                       Vec3::UnitZ());
+}
+
 }  // namespace
 }  // namespace conchoid

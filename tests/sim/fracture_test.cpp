@@ -144,10 +144,10 @@ TEST(Fracture, AnIntactBodySaysSoAndStaysSo) {
 TEST(Fracture, AFrameLimitIsTheCallersAndTheFractureGoesOn) {
   const Scene scene = cube();
   Fracture whole = fracture_of(scene), halves = fracture_of(scene);
-  run_frames(whole, 6);
+  run_frames(whole, 5);
   EXPECT_EQ(run_frames(halves, 3), StopReason::frame_limit);
   EXPECT_FALSE(halves.visible_sheets().empty());
-  EXPECT_EQ(run_frames(halves, 6), StopReason::frame_limit);
+  EXPECT_EQ(run_frames(halves, 5), StopReason::frame_limit);
   EXPECT_EQ(halves.crack().sheet.mesh.positions, whole.crack().sheet.mesh.positions);
 }
 

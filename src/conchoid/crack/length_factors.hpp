@@ -43,6 +43,12 @@ inline constexpr double kUnresolvedChange = 1.25;
 inline constexpr int kIntensityPasses = 2;
 /// × the law's step, where K is reversed from node to node: the next frame may know better.
 inline constexpr double kLeastUnresolvedStep = 0.25;
+/// Of θ⁴, θ³, θ³ and θ² in what a kink θ does to the opening at it: fitted to kinked cracks in the plane of 8 … 70°
+/// and 1 … 3 r̄ long, against displacement discontinuities of r̄/20 (docs/verification.md).
+inline constexpr std::array<double, 4> kKinkRates{0.071, 0.21, 0.10, 0.31};
+/// Of the weights of all samples, that those not behind a kink must have: less is a strip too thin to read from,
+/// and the rows behind it say more.
+inline constexpr double kLeastShareAhead = 2e-3;
 
 // Law and initiation (law/).
 
@@ -80,7 +86,8 @@ inline constexpr double kSmoothingAcross = 0.2;
 inline constexpr double kEqualDistance = 1e-6;
 /// Cosine between mean normals below which two cracks stand across each other and neither is turned.
 inline constexpr double kAcrossSheets = 0.1;
-/// rad: a crack's normal that turns more from row to row is kinked, not curved, and not carried on to the front.
+/// rad: a crack's normal that turns more from row to row is kinked, not curved: it is not carried on to the front, and
+/// openings behind it say nothing of the front. Up to twice that a share.
 inline constexpr double kSmoothSurfaceTurn = 0.15;
 /// Relative: diagonals of a strip's quadrilateral that are equally long.
 inline constexpr double kEqualDiagonals = 1e-6;

@@ -249,7 +249,10 @@ TriMesh rectangle_crack(const Vec3& center, const Vec3& edge1, const Vec3& edge2
     front.push_back(add(-0.5, (2 * j - m) / (2.0 * m)));
   // Inner nodes: n × m of them, one behind the middle of each front edge; the corner ones serve two edges.
   constexpr double ring_height = 0.8;  // in front edge lengths
-  const double width = ring_height * 0.5 * (length1 / n + length2 / m);
+  const double edge1_length = length1 / n, edge2_length = length2 / m;
+  // No wider than the shorter edge: of three edges or more across, the inner nodes keep the middle one's width.
+  const double width =
+      std::min(ring_height * 0.5 * (edge1_length + edge2_length), std::min(edge1_length, edge2_length));
   const double inner1 = 1 - 2 * width / length1, inner2 = 1 - 2 * width / length2;
   std::vector<NodeId> inner;
   for (int j = 0; j < m; ++j)

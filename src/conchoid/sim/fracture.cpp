@@ -16,6 +16,7 @@
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/resolved_points.hpp"
+#include "conchoid/sim/path_correction.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -289,7 +290,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   compute_openings(report);
   report.opening_seconds = clock.lap();
   frame = report.frame;
-  const std::vector<FrontStep> steps = decide(report);
+  std::vector<FrontStep> steps = decide(report);
   for (FractureObserver* observer : observers)
     observer->on_opening(self);
   if (!predictor) history.remember(crack, openings);
@@ -301,6 +302,8 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const std::size_t fronts_before = crack.sheet.fronts.size();
   if (solved()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
+  if (solved() && !new_crack) correct_directions(steps, crack, fine, growth, *body, bem);
+  report.opening_seconds += clock.lap();
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty())
     advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,

@@ -64,6 +64,7 @@ FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, 
   EdgeFoot best;
   best.distance = std::numeric_limits<double>::infinity();
   std::size_t best_edge = 0;
+  bool clipped = false;
   for (std::ptrdiff_t k = range.first; k < range.first + count; ++k) {
     if (!front.closed && (k < 0 || k >= edges)) continue;
     const auto edge = static_cast<std::size_t>((k % edges + edges) % edges);
@@ -71,12 +72,16 @@ FrontFoot closest_foot(const TriMesh& crack, const Front& front, const Vec3& x, 
     if (foot.abreast != best.abreast ? foot.abreast : foot.distance < best.distance) {
       best = foot;
       best_edge = edge;
+      const bool goes_on_before = front.closed ? count < edges : k > 0;
+      const bool goes_on_after = front.closed ? count < edges : k + 1 < edges;
+      clipped = !foot.abreast && ((k == range.first && foot.fraction == 0 && goes_on_before) ||
+                                  (k + 1 == range.first + count && foot.fraction == 1 && goes_on_after));
     }
   }
   const std::size_t next = next_index(best_edge, n, front.closed);
   const double length = (crack.positions[front.nodes[next]] - crack.positions[front.nodes[best_edge]]).norm();
   const double outside = sagitta(front.frames[best_edge], front.frames[next], length, best.fraction);
-  return {best_edge, best.fraction, best.distance + outside};
+  return {best_edge, best.fraction, best.distance + outside, clipped};
 }
 
 FrontFrame frame_at(const Front& front, const FrontFoot& foot) {

@@ -12,6 +12,8 @@ struct FrontFoot {
   double fraction = 0;   ///< along that edge, 0…1
   double distance =
       0;  ///< r [m] from the point to the true front: to the chord, plus the chord's sagitta at the foot
+  bool clipped =
+      false;  ///< at an end of the range searched, beyond which the front goes on: the true foot is there
 };
 
 /// Edges of a front: `count` of them from edge `first` on, which may lie before the start. They go round a

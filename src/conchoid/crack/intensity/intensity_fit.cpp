@@ -6,6 +6,7 @@
 
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/intensity/front_distance.hpp"
+#include "conchoid/crack/intensity/kinks_behind.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
@@ -73,6 +74,28 @@ double weight(const OpeningSample& sample, bool galerkin_openings) {
   const double s = sample.s / kFitReachAlong;
   const double near = (1 - s * s) / (1 + 0.25 * sample.r * sample.r);
   return thin * thin * near * near * (galerkin_openings && sample.row == 1 ? kFirstRowWeight : 1.0);
+}
+
+/// Weights of all samples: 0 behind a kink, and at a kink only as much as the smooth rows beyond the first, which
+/// counts little, do not outweigh it.
+std::vector<double> weights(const std::vector<OpeningSample>& samples, bool galerkin_openings) {
+  std::vector<double> all, ahead, at_kink;
+  double sum_all = 0, sum_ahead = 0, smooth = 0, kinked = 0;
+  for (const OpeningSample& sample : samples) {
+    all.push_back(weight(sample, galerkin_openings));
+    ahead.push_back(all.back() * share_behind_turn(sample.turn));
+    at_kink.push_back(1 - share_behind_turn(std::abs(sample.kink)));
+    sum_all += all.back();
+    sum_ahead += ahead.back();
+    if (sample.row > 1) smooth += (1 - at_kink.back()) * ahead.back();
+    kinked += at_kink.back() * ahead.back();
+  }
+  if (sum_ahead < kLeastShareAhead * sum_all) return all;
+  if (!(kinked > 0)) return ahead;
+  const double needless = std::min(1.0, smooth / kinked);
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    ahead[k] *= 1 - at_kink[k] * needless;
+  return ahead;
 }
 
 /// Takes the Galerkin solution's deviation out of the rates.
@@ -145,12 +168,14 @@ std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const
 
 std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
                                           std::size_t i, const std::vector<int>& rows,
+                                          const std::vector<KinkBehind>& kinks,
                                           const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
   const double h = mean_edge_length(crack, front, i);
   std::vector<OpeningSample> samples;
   if (!(h > 0)) return samples;
   for (NodeId node : nodes_behind(crack, links, front, i, rows, (kFitReachBehind + kFitReachAlong) * h)) {
     const FrontFoot foot = closest_foot(crack, front, crack.positions[node], edges_around(i, 2));
+    if (foot.clipped) continue;
     OpeningSample sample;
     sample.r = foot.distance / h;
     sample.s = along_front(crack, front, i, foot) / h;
@@ -158,7 +183,10 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
     const FrontFrame frame = frame_at(front, foot);
     sample.row = rows[node.index()];
     const Vec3 du = opening[node] / std::sqrt(foot.distance);
-    sample.rate = {du.dot(frame.e1), du.dot(frame.e2), du.dot(frame.e3)};
+    const KinkBehind& kink = kinks[node.index()];
+    sample.turn = kink.turn;
+    sample.kink = kink.kink;
+    sample.rate = without_kink(in_frame(frame, du), kink.kink);
     samples.push_back(sample);
   }
   if (galerkin_openings) remove_element_bias(samples);
@@ -170,15 +198,15 @@ bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings,
   using Normal = Eigen::Matrix4d;
   Normal normal = Normal::Zero();
   Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+  const std::vector<double> weight_of = weights(samples, galerkin_openings);
   double total = 0;
-  for (const OpeningSample& sample : samples) {
-    const double w = weight(sample, galerkin_openings);
+  for (const double w : weight_of)
     total += w;
-  }
   if (!(total > 0)) return false;
-  for (const OpeningSample& sample : samples) {
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const OpeningSample& sample = samples[k];
     const Eigen::Vector4d row(1, sample.s, sample.s * sample.s, sample.r);
-    const double w = weight(sample, galerkin_openings) / total;
+    const double w = weight_of[k] / total;
     normal += w * row * row.transpose();
     right += w * row * sample.rate.transpose();
   }

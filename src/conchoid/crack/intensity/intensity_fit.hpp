@@ -33,16 +33,22 @@ struct OpeningSample {
   int row = 1;               ///< row of nodes it belongs to
   double r = 0;              ///< distance from the front / h
   double s = 0;              ///< position of the foot along the front / h, 0 at the front node
+  double turn = 0;           ///< of the sheet between front and node [rad]; see KinkBehind
+  double kink = 0;           ///< at the node [rad]
   Vec3 rate = Vec3::Zero();  ///< Δu/√r in the frame at the foot [√m]
 };
 
-/// Samples around node i of the front, nearest rows first found through the mesh: |s| ≤ 1.6 h, r ≤ 3.6 h.
+struct KinkBehind;
+
+/// Samples around node i of the front, nearest rows first found through the mesh: |s| ≤ 1.6 h, r ≤ 3.6 h. Those
+/// at a kink of the sheet as a straight crack has them.
 std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
                                           std::size_t i, const std::vector<int>& rows,
+                                          const std::vector<KinkBehind>& kinks,
                                           const IdVector<NodeId, Vec3>& opening, bool galerkin_openings);
 
 /// Fits rate(r, s) = A + A' s + A" s² + B r by weighted least squares and returns A in `rate`; false without
-/// a sample.
+/// a sample. Samples behind a kink are left out, unless hardly any other is there.
 bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings, Vec3& rate);
 
 }  // namespace conchoid
