@@ -74,7 +74,8 @@ struct Fracture::State {
   std::vector<FractureObserver*> observers;
 
   bool started = false;
-  int frame = 0;
+  int before = 0;  // frames of bodies that this one is a piece of
+  int frame = 0;   // these counted, too
   std::optional<StopReason> stop;
   std::vector<FrontOpening> openings;
   std::vector<FrontDecision> decisions;
@@ -103,25 +104,40 @@ struct Fracture::State {
   }
 
   bool solved() const { return !predictor && carried == 0; }
+  bool first(int number) const { return number <= before + 1; }
   bool separated() const { return !body->infinite() && separates(crack.cut); }
 
   void start(StepReport& report);
+  bool start_crack(StepReport& report);
   void start_cracks(StepReport& report);
   void compute_openings(StepReport& report);
   std::vector<FrontStep> decide(StepReport& report);
   void compute_frame(const Fracture& self, StepReport& report);
 };
 
-// One new crack at a time, where the stress as last solved exceeds the strength most.
-void Fracture::State::start_cracks(StepReport& report) {
-  if (new_cracks >= settings.max_cracks) return;
-  for (const CrackSite& site : find_crack_sites(*body, crack, bem.body(), 1)) {
-    append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(site)));
-    ++new_cracks;
-    ++report.new_cracks;
-  }
+// A new crack where the stress as last solved exceeds the strength most. Whether there is one.
+bool Fracture::State::start_crack(StepReport& report) {
+  const std::vector<CrackSite> sites = find_crack_sites(*body, crack, bem.body(), 1);
+  if (sites.empty()) return false;
+  append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(sites[0])));
+  ++new_cracks;
+  if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
   fine.append_parts(crack.sheet);
   if (visible) visible->append_parts(crack.sheet);
+  return true;
+}
+
+// Several in one frame: the body is solved again after each, so that the next one feels how far it relieves
+// the stress around it. Where that cannot be solved no more start.
+void Fracture::State::start_cracks(StepReport& report) try {
+  for (int i = 0; i < settings.max_cracks_per_frame && new_cracks < settings.max_cracks; ++i) {
+    if (i > 0) {
+      update_crack(crack, body->surface, body->crack_edge);
+      bem.solve(crack.cut);
+    }
+    if (!start_crack(report)) return;
+  }
+} catch (const SingularSystem&) {  // with the crack just started: it is the last one of this frame
 }
 
 void Fracture::State::start(StepReport& report) {
@@ -142,7 +158,7 @@ void Fracture::State::start(StepReport& report) {
 
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
-  report.source = predictor && report.frame > 1 ? predictor->name() : bem.name();
+  report.source = predictor && !first(report.frame) ? predictor->name() : bem.name();
   if (predictor) {
     openings = predictor->open(crack);
     return;
@@ -153,7 +169,7 @@ void Fracture::State::compute_openings(StepReport& report) {
     if (const ContactReport& contact = bem.body().contact(); !contact.converged)
       report.warnings.push_back(fmt::format("frame {}: {}", report.frame, contact_warning(contact)));
   } catch (const SingularSystem& error) {
-    if (report.frame == 1 || carried == kMostCarried) throw;
+    if (first(report.frame) || carried == kMostCarried) throw;
     if (carried++ == 0)
       report.warnings.push_back(fmt::format("frame {}: {}; the front goes straight on with K as last solved",
                                             report.frame, error.what()));
@@ -254,7 +270,7 @@ StepReport Fracture::step() {
   try {
     s.compute_frame(*this, report);
   } catch (const SingularSystem& error) {
-    if (report.frame == 1) throw;
+    if (s.first(report.frame)) throw;
     report.warnings.push_back(fmt::format("frame {}: {}; the run ends here and keeps the frames before",
                                           report.frame, error.what()));
     s.stop = StopReason::singular;
@@ -272,6 +288,10 @@ void Fracture::set_load(LoadCase load) {
   if (s.stop != StopReason::arrested && s.stop != StopReason::intact) return;
   if (s.stop == StopReason::intact) s.started = false;  // a crack is looked for again
   s.stop.reset();
+}
+
+void Fracture::count_from(int frames) {
+  state_->before = state_->frame = frames;
 }
 
 void Fracture::add_observer(FractureObserver& observer) {
@@ -307,7 +327,7 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
   return state_->decisions;
 }
 bool Fracture::solved() const {
-  return state_->predictor ? state_->frame <= 1 : state_->solved();
+  return state_->predictor ? state_->first(state_->frame) : state_->solved();
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();
@@ -318,8 +338,11 @@ const FrontHistory& Fracture::history() const {
 double Fracture::rayleigh_speed() const {
   return state_->rayleigh_speed;
 }
+std::size_t Fracture::new_cracks() const {
+  return static_cast<std::size_t>(state_->new_cracks);
+}
 std::size_t Fracture::cracks() const {
-  return state_->body->cracks.size() + static_cast<std::size_t>(state_->new_cracks);
+  return state_->body->cracks.size() + new_cracks();
 }
 
 std::vector<TriMesh> Fracture::visible_sheets() const {

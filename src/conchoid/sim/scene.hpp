@@ -78,10 +78,14 @@ struct CrackSpec {
 
 enum class SifSource { two_point, one_point };
 enum class OpeningConvention { full, half };
+enum class AfterSeparation { go_on, stop };
 
 struct RunSpec {
   int frames = 30;
-  int max_cracks = 1;
+  int max_cracks = 1;            ///< of the whole run, in the body and its pieces
+  int max_cracks_per_frame = 1;  ///< ≥ 1
+  AfterSeparation after_separation = AfterSeparation::go_on;
+  double smallest_body = 1e-2;  ///< share of the body's volume below which a piece breaks no further
   std::uint64_t seed = 1;
   bool inertia_relief = false;
   bool contact = true;
