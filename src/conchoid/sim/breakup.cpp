@@ -9,6 +9,7 @@
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/sim/broken_pieces.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/piece_scene.hpp"
@@ -37,6 +38,12 @@ double volume_off(const Fracture& fracture) {
   for (const double v : volume)
     sum += v;
   return sum - *std::max_element(volume.begin(), volume.end());
+}
+
+// A piece that was cut before has rounded nodes: a crack that runs along its new faces may fold them.
+bool are_solids(const std::vector<Fragment>& fragments) {
+  return std::all_of(fragments.begin(), fragments.end(),
+                     [](const Fragment& f) { return f.watertight && self_intersections(f.mesh, 1).empty(); });
 }
 
 // Hands on what a body does; of a piece nothing before the first frame in which it moves.
@@ -251,6 +258,13 @@ void Breakup::State::end_first(StopReason reason) {
 void Breakup::State::end_piece() {
   if (!grown()) return;
   Pieces cut = cut_into_pieces(*fracture, output);
+  if (!are_solids(cut.fragments)) {
+    warnings.push_back(
+        fmt::format("after frame {}: what broke further in a piece could not be cut out of it cleanly; the "
+                    "piece is left as it was before, and its cracks are seen in the frames only",
+                    fracture->frame()));
+    return;
+  }
   const std::vector<Fragment> raw = cut.fragments;
   const std::size_t first = pieces->replace(*id, std::move(cut));
   if (raw.size() > 1) wait(raw, first, raw.size());
