@@ -73,13 +73,14 @@ inline std::vector<std::array<double, 2>> divided(const std::vector<std::array<d
 
 inline TriMesh tube(double outer, double inner, double length, int along, int around = 20) {
   const double h = length / 2;
-  return turned(divided({{outer, -h}, {outer, h}, {inner, h}, {inner, -h}}, {along, 1, along, 1}, true), around, true);
+  return turned(divided({{outer, -h}, {outer, h}, {inner, h}, {inner, -h}}, {along, 1, along, 1}, true),
+                around, true);
 }
 
 /// Open at the top; outer radius 1, wall 0.4, 4 high.
 inline TriMesh cup(int around = 20) {
-  return turned(divided({{0, -2}, {1, -2}, {1, 2}, {0.6, 2}, {0.6, -1.5}, {0, -1.5}}, {2, 6, 1, 5, 2}, false), around,
-                false);
+  return turned(divided({{0, -2}, {1, -2}, {1, 2}, {0.6, 2}, {0.6, -1.5}, {0, -1.5}}, {2, 6, 1, 5, 2}, false),
+                around, false);
 }
 
 inline TriMesh torus(double radius, double thickness, int along, int around) {
@@ -103,7 +104,8 @@ inline TriMesh block_with_cavity(double side, double radius, int cells) {
   for (const Vec3& x : ball.positions)
     mesh.positions.push_back(middle + x);
   for (const auto& c : ball.corners)
-    mesh.corners.push_back({NodeId(c[0].index() + first), NodeId(c[2].index() + first), NodeId(c[1].index() + first)});
+    mesh.corners.push_back(
+        {NodeId(c[0].index() + first), NodeId(c[2].index() + first), NodeId(c[1].index() + first)});
   return mesh;
 }
 

@@ -23,12 +23,22 @@ struct RunCommand {
   bool resume = false;
 };
 
+std::string load_text(const RunDocument& d) {
+  std::string text;
+  if (!d.stop_details.empty()) text += "\n" + d.stop_details;
+  text += fmt::format("\ncrack area {:.6g} m²", d.crack_area);
+  if (d.largest_K_over_Kc) text += fmt::format(", largest K {:.3g} K_c", *d.largest_K_over_Kc);
+  if (d.stress_over_strength)
+    text += fmt::format(", largest stress at the start {:.3g} × strength", *d.stress_over_strength);
+  return text;
+}
+
 std::string report_text(const RunDocument& d) {
   std::string text = fmt::format(
-      "{} after {} frames, {} → {} triangles\n"
+      "{} after {} frames, {} → {} triangles{}\n"
       "{:.3f} s: opening {:.3f}, fracture {:.3f}, other {:.3f}; opening per frame {:.4f}",
-      name(d.stop), d.frames, d.initial_triangles, d.final_triangles, d.total_seconds, d.opening_seconds,
-      d.fracture_seconds, d.other_seconds, d.opening_seconds_per_frame);
+      name(d.stop), d.frames, d.initial_triangles, d.final_triangles, load_text(d), d.total_seconds,
+      d.opening_seconds, d.fracture_seconds, d.other_seconds, d.opening_seconds_per_frame);
   for (std::size_t i = 0; i < d.fragments.size(); ++i)
     text += fmt::format("\nfragment {}: {:.6g} m³, {:.6g} kg, fracture area {:.6g} m², {}", i,
                         d.fragments[i].volume, d.fragments[i].mass, d.fragments[i].fracture_area,

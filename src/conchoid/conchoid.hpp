@@ -8,6 +8,7 @@
 ///   PreparedBody       a body under the conditions of a scene, assembled and factored once for many runs
 ///   LoadCase           values of the loads on it; many per body
 ///   Fracture           a prepared body that breaks, frame by frame: step() → StepReport, state in between
+///   Breakup            the same, and its pieces after it, until nothing moves any more
 ///   FractureObserver   sees it happen
 ///   GrowthLaw          when, where to and how far cracks grow
 ///   Regressor          predicts how they open: load_regressor(), then a method of opening_methods()
@@ -20,6 +21,8 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/message_sink.hpp"
 #include "conchoid/learn/regressor.hpp"
+#include "conchoid/sim/breakup.hpp"
+#include "conchoid/sim/load_report.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/pieces.hpp"
 #include "conchoid/sim/recorders.hpp"

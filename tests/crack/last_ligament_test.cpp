@@ -32,12 +32,14 @@ TriMesh both(TriMesh a, const TriMesh& b) {
   const std::size_t first = a.node_count();
   a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
   for (const auto& c : b.corners)
-    a.corners.push_back({NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
+    a.corners.push_back(
+        {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
   return a;
 }
 
 TEST(CellGrid, ItsCellsAreThoseWhoseCentresTheBodyWindsAround) {
-  for (const TriMesh& body : {shapes::torus(2, 0.7, 16, 8), shapes::cup(12), shapes::block_with_cavity(3, 0.8, 3)}) {
+  for (const TriMesh& body :
+       {shapes::torus(2, 0.7, 16, 8), shapes::cup(12), shapes::block_with_cavity(3, 0.8, 3)}) {
     const CellGrid grid(body, plane_sheet(-0.2, 0.3, 0.1), 0.23);
     std::size_t inside = 0;
     for (std::size_t c = 0; c < grid.cells(); ++c) {
@@ -135,10 +137,12 @@ TEST(LastLigament, TurnsAndMovesWithTheBody) {
         x = turn * x + Vec3(3, -2, 1);
       return mesh;
     };
-    const auto found = find_last_ligaments(placed(unit_cube()), placed(plane_sheet(-0.6, 0.38, 0.013)), kEdge);
+    const auto found =
+        find_last_ligaments(placed(unit_cube()), placed(plane_sheet(-0.6, 0.38, 0.013)), kEdge);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0].half_width, reference[0].half_width, 0.1 * kEdge);
-    EXPECT_NEAR(found[0].smaller_part, reference[0].smaller_part, 1.5 * found[0].grid->size());  // layers of cells
+    EXPECT_NEAR(found[0].smaller_part, reference[0].smaller_part,
+                1.5 * found[0].grid->size());  // layers of cells
   }
 }
 

@@ -48,7 +48,7 @@ TEST_P(PulledCubeAt, OneCrackSeparatesItIntoTwoPieces) {
   double volume = 0;
   for (const Fragment& f : result.fragments) {
     EXPECT_TRUE(f.watertight);
-    EXPECT_NEAR(f.volume, enclosed_volume(f.mesh), 1e-12);
+    EXPECT_NEAR(f.volume, enclosed_volume(f.mesh), 1e-6);  // slits are drawn apart
     EXPECT_TRUE(std::count(f.face_kind.begin(), f.face_kind.end(), FaceKind::fracture) > 0);
     volume += f.volume;
   }

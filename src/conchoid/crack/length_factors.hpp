@@ -157,11 +157,9 @@ inline constexpr double kAlikeSheets = 0.5;
 inline constexpr std::size_t kNeighbourEdges = 3;
 /// × r̄: widest ligament that breaks; about an element, what lies in it is not resolved.
 inline constexpr double kWidestLigament = 1.4;
-/// × kWidestLigament, from the place that far ahead of a front: nearer walls are others than its own crack.
-inline constexpr double kCrackAhead = 0.9;
-/// × r̄: widest ligament that breaks where its rims have kOverload × K_c: the next two frames would take it.
+/// × r̄: widest ligament that breaks where its rims have kOverloadedRim × K_c: the next two frames would take it.
 inline constexpr double kWidestOverloadedLigament = 2.2;
-inline constexpr double kOverload = 5;
+inline constexpr double kOverloadedRim = 5;
 /// × r̄: thinner ones break whatever K is said to be at their rims: no element fits in between.
 inline constexpr double kThinnestLigament = 0.5;
 /// × r̄: to which wider ones are narrowed first, well below kWidestLigament.

@@ -25,6 +25,10 @@ Json to_json(const Mat3& m) {
   return rows;
 }
 
+Json to_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 Json to_json(const FragmentRecord& f) {
   Json out;
   out["volume"] = f.volume;
@@ -59,6 +63,12 @@ Json to_json(const std::vector<RunSetting>& settings) {
 /// A number that may have been written as null because it was not finite.
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+std::optional<double> optional_from(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || found->is_null()) return std::nullopt;
+  return found->get<double>();
 }
 
 Vec3 vector_from(const Json& json) {
@@ -119,6 +129,10 @@ RunDocument document_from(const Json& json, const std::filesystem::path& path) {
     throw InputError(path.string() + ": 'stop' is '" + stop +
                      "', which no run of this program says; run the scene again with this program");
   d.stop = *reason;
+  d.stop_details = json.value("stop_details", std::string());
+  d.crack_area = json.value("crack_area", 0.0);
+  d.largest_K_over_Kc = optional_from(json, "largest_K_over_Kc");
+  d.stress_over_strength = optional_from(json, "stress_over_strength");
   d.initial_triangles = json.at("triangles").at("initial").get<std::size_t>();
   d.final_triangles = json.at("triangles").at("final").get<std::size_t>();
   const Json& seconds = json.at("seconds");
@@ -175,12 +189,16 @@ std::string run_json(const RunDocument& d, RunJson extent) {
   out["frames"] = d.frames;
   if (d.resumed_after > 0) out["resumed_after"] = d.resumed_after;
   out["stop"] = name(d.stop);
+  out["stop_details"] = d.stop_details;
   out["triangles"] = {{"initial", d.initial_triangles}, {"final", d.final_triangles}};
   out["seconds"] = {{"total", d.total_seconds},
                     {"opening", d.opening_seconds},
                     {"fracture", d.fracture_seconds},
                     {"other", d.other_seconds}};
   out["opening_seconds_per_frame"] = d.opening_seconds_per_frame;
+  out["crack_area"] = d.crack_area;
+  out["largest_K_over_Kc"] = to_json(d.largest_K_over_Kc);
+  out["stress_over_strength"] = to_json(d.stress_over_strength);
   out["fragments"] = Json::array();
   for (const FragmentRecord& f : d.fragments)
     out["fragments"].push_back(to_json(f));

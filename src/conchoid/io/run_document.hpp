@@ -46,6 +46,13 @@ struct RunDocument {
   std::string scene_file, scene_text;
   std::string method;  ///< "bem", "steady", "forest", …: sim/methods.hpp
   StopReason stop = StopReason::frame_limit;
+  /// A sentence that belongs to `stop`: how near to breaking an intact body is and where, how near to moving the
+  /// fronts that stay. Empty where there is nothing to add.
+  std::string stop_details;
+  double crack_area = 0;  ///< of the crack surface, one side of it [m²]
+  std::optional<double>
+      largest_K_over_Kc;  ///< K_eff / K_c along the fronts as last computed (sim/load_report.hpp)
+  std::optional<double> stress_over_strength;  ///< largest σ1 / S_c before anything moved
   int frames = 0;
   int resumed_after = 0;  ///< complete frames that were found; the times are those of the run that went on
   std::size_t initial_triangles = 0, final_triangles = 0;

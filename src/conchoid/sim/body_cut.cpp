@@ -33,8 +33,8 @@ TriMesh parting_faces(const std::vector<Fragment>& fragments, const TriMesh& sur
 }
 
 // None where there is no clean way through.
-std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const TriMesh& surface, std::size_t first,
-                                const FragmentSettings& settings) {
+std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const TriMesh& surface,
+                                std::size_t first, const FragmentSettings& settings) {
   try {
     return part_fragments(fragments, surface, first, settings);
   } catch (const ComputationError&) {
@@ -61,14 +61,19 @@ TriMesh join(const std::vector<TriMesh>& sheets) {
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets) {
   BodyCut cut;
   cut.sheets = std::move(sheets);
-  try {
-    cut.fragments = cut_into_fragments(body.detailed, cut.sheets, fragment_settings(body, run));
-  } catch (const ComputationError& error) {  // folded over itself: the frames are still worth having
+  const auto left_whole = [&](const std::exception& error) {  // the frames are still worth having
     cut.warnings.push_back(
         fmt::format("the body could not be cut by the fine crack surface ({}); crack.ply holds the surface "
                     "as swept, the body is left whole",
                     error.what()));
     cut.fragments = cut_into_fragments(body.detailed, {}, fragment_settings(body, run));
+  };
+  try {
+    cut.fragments = cut_into_fragments(body.detailed, cut.sheets, fragment_settings(body, run));
+  } catch (const ComputationError& error) {  // folded over itself
+    left_whole(error);
+  } catch (const InputError& error) {  // passes through itself
+    left_whole(error);
   }
   return cut;
 }
@@ -80,7 +85,8 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
     if (!breaks(ligament)) continue;
     for (const LigamentOverlap& overlap : kOverlaps) {
       const TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
-      std::vector<Fragment> parts = parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
+      std::vector<Fragment> parts =
+          parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
       if (parts.size() < 2) continue;
       cut.ligament = parting_faces(parts, surface, all.triangle_count());
       cut.fragments = std::move(parts);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kAlongSurface = 0.9;  // cosine between σ1 and the surface normal above which no crack starts
 constexpr double kAlongFace = 0.5;     // the same at the face of a crack
+constexpr double kCrackDistance = 2;   // × r̄: from cracks that are there
 
 struct WeakPoint {
   Vec3 position;
@@ -76,9 +77,10 @@ std::vector<InitiationCandidate> find_branches(const PreparedBody& prepared, con
   return out;
 }
 
-// Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal.
+// Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal,
+// where σ1 exceeds so many times the strength.
 std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, const CrackState& crack,
-                                                 const CrackedBody& body, double strength) {
+                                                 const CrackedBody& body, double strength, double times) {
   std::vector<char> cut(prepared.surface.triangle_count(), 0);
   for (std::size_t t = 0, n = 0; t < crack.cut.surface.size(); ++t) {
     const std::size_t parent = crack.cut.surface_parent[t].index();
@@ -100,7 +102,7 @@ std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, c
         prepared.strength.homogeneous()
             ? WeakPoint{centroid(prepared.surface, TriId(t)), strength}
             : weakest_point({x[nodes[0]], x[nodes[1]], x[nodes[2]]}, strength, prepared.strength);
-    if (p.value[0] <= local_strength) continue;
+    if (p.value[0] <= times * local_strength) continue;
     out.push_back({at,
                    p.value[0],
                    p.direction.col(0),
@@ -115,6 +117,21 @@ std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, c
 
 }  // namespace
 
+StressPeak largest_stress(const PreparedBody& prepared, const CrackState& crack, const CrackedBody& body) {
+  StressPeak peak;
+  if (prepared.infinite()) return peak;
+  const double near = kCrackDistance * prepared.crack_edge;
+  const auto& nodes = crack.sheet.mesh.positions;
+  for (const InitiationCandidate& c : find_on_surface(prepared, crack, body, prepared.material.strength, 0)) {
+    const double ratio = c.principal_stress / c.strength;
+    if (ratio > peak.ratio && std::none_of(nodes.begin(), nodes.end(), [&](const Vec3& x) {
+          return (x - c.position).squaredNorm() < near * near;
+        }))
+      peak = {ratio, c.position};
+  }
+  return peak;
+}
+
 std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const CrackState& crack,
                                         const CrackedBody& body, std::size_t most) {
   const auto& x = crack.sheet.mesh.positions;
@@ -123,12 +140,12 @@ std::vector<CrackSite> find_crack_sites(const PreparedBody& prepared, const Crac
   for (const SheetFront& front : crack.sheet.fronts)
     for (const NodeId n : front.nodes)
       fronts.push_back(x[n]);
-  const InitiationSettings settings{prepared.crack_edge, 2 * prepared.crack_edge, most};
+  const InitiationSettings settings{prepared.crack_edge, kCrackDistance * prepared.crack_edge, most};
   const double strength = prepared.material.strength;
   std::vector<InitiationCandidate> candidates =
       find_branches(prepared, crack, body, strength, fronts, settings.min_distance);
   if (!prepared.infinite()) {
-    const auto on_surface = find_on_surface(prepared, crack, body, strength);
+    const auto on_surface = find_on_surface(prepared, crack, body, strength, 1);
     candidates.insert(candidates.end(), on_surface.begin(), on_surface.end());
   }
   return choose_sites(candidates, taken, settings, fronts);

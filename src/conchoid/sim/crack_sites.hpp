@@ -9,6 +9,16 @@
 
 namespace conchoid {
 
+/// A stress compared with the strength.
+struct StressPeak {
+  double ratio = 0;              ///< σ1 / S_c; 0: nowhere above
+  Vec3 position = Vec3::Zero();  ///< of the prepared body [m]
+};
+
+/// Where the surface is strained most, as last solved, among the places where a crack could start: free
+/// triangles that no crack cuts, farther than 2 r̄ from the cracks that are there. The infinite body has none.
+StressPeak largest_stress(const PreparedBody& prepared, const CrackState& crack, const CrackedBody& body);
+
 /// Where new cracks start under the stress as last solved: on free triangles of the body's surface that no
 /// crack cuts, or as branches on faces of cracks away from their fronts, where it exceeds the strength most.
 /// None starts where the displacement is prescribed.

@@ -13,10 +13,8 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
-#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/resolved_points.hpp"
-#include "conchoid/sim/path_correction.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
@@ -24,6 +22,7 @@ namespace {
 
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
+constexpr int kUnresolvedFrames = 3;      // in a row, after which what is left to break is looked at
 constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
 constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
 
@@ -78,7 +77,8 @@ struct Fracture::State {
   std::vector<FractureObserver*> observers;
 
   bool started = false;
-  int frame = 0;
+  int before = 0;  // frames of bodies that this one is a piece of
+  int frame = 0;   // these counted, too
   std::optional<StopReason> stop;
   std::vector<FrontOpening> openings;
   std::vector<FrontDecision> decisions;
@@ -106,18 +106,21 @@ struct Fracture::State {
                       FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
 
+  int unresolved_frames = 0;      // in a row
   std::optional<BodyCut> parted;  // when it separated
 
   bool solved() const { return !predictor && carried == 0; }
   std::vector<TriMesh> visible_sheets() const;
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
-  bool nearly_through() const;
+  bool barred() const;
   bool unresolved() const;
   bool driven(const LastLigament& ligament, double factor) const;
   bool ligament_breaks(bool at_end);
+  bool first(int number) const { return number <= before + 1; }
 
   void start(StepReport& report);
+  bool start_crack(StepReport& report);
   void start_cracks(StepReport& report);
   void compute_openings(StepReport& report);
   std::vector<FrontStep> decide(StepReport& report);
@@ -127,7 +130,6 @@ struct Fracture::State {
 // By the cut of the boundary elements, and of the detailed body, which the markers may not have crossed quite.
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
-  if (!settings.cut_before_separated) return true;
   return parts([](const LastLigament&) { return true; });
 }
 
@@ -138,29 +140,21 @@ bool Fracture::State::parts(const std::function<bool(const LastLigament&)>& brea
   return parted.has_value();
 }
 
-// Whether one of the cracks has a wall, another crack or the body's surface, close before it all along its
-// fronts: else no ligament can be narrow.
-bool Fracture::State::nearly_through() const {
-  const double reach = kWidestLigament * body->crack_edge;
-  const ClosestPointTree walls(join({body->surface, crack.trimmed}));
-  const std::vector<int> part = connected_parts(crack.sheet.mesh);
-  std::vector<bool> through(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()), true);
-  for (const FrontPoint& point : crack.points) {
-    const Vec3 ahead = crack.sheet.mesh.positions[point.node] + reach * point.frame.e2;
-    const double gap = std::sqrt(walls.closest(ahead).squared_distance);
-    if (gap > kCrackAhead * reach) through[part[point.node.index()]] = false;
-  }
-  return std::find(through.begin(), through.end(), true) != through.end();
-}
-
-// Whether the elements cannot resolve the opening somewhere, or another crack bars a front's way.
+// Whether the elements cannot resolve the opening somewhere.
 bool Fracture::State::unresolved() const {
   const double r = body->crack_edge;
   for (std::size_t i = 0; i < crack.points.size(); ++i)
-    if (!openings[i].known || crack.sheet.state[crack.points[i].node] == FrontState::arrested ||
+    if (!openings[i].known ||
         opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r)
       return true;
   return crack.points.empty();
+}
+
+// Whether another crack bars a front's way.
+bool Fracture::State::barred() const {
+  return std::any_of(crack.points.begin(), crack.points.end(), [&](const FrontPoint& point) {
+    return crack.sheet.state[point.node] == FrontState::arrested;
+  });
 }
 
 // Whether the crack would run on at the rim of the ligament, even if K were less by a factor.
@@ -169,9 +163,8 @@ bool Fracture::State::driven(const LastLigament& ligament, double factor) const 
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     if (openings[i].known && decisions[i].drive <= factor * decisions[i].toughness) continue;
     const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
-    if (std::any_of(ligament.faces.begin(), ligament.faces.end(), [&](const Vec3& y) {
-          return (x - y).norm() < kWidestLigament * body->crack_edge;
-        }))
+    if (std::any_of(ligament.faces.begin(), ligament.faces.end(),
+                    [&](const Vec3& y) { return (x - y).norm() < kWidestLigament * body->crack_edge; }))
       return true;
   }
   return false;
@@ -181,29 +174,44 @@ bool Fracture::State::driven(const LastLigament& ligament, double factor) const 
 // the elements, or, where no front can go on, whatever is left.
 bool Fracture::State::ligament_breaks(bool at_end) {
   if (body->infinite() || openings.size() != crack.points.size()) return false;
-  if (!at_end && carried == 0 && !nearly_through() && !unresolved()) return false;
+  // A front that has a single ligament to go mostly takes it in a frame or two.
+  unresolved_frames = unresolved() ? unresolved_frames + 1 : 0;
+  if (!at_end && carried == 0 && !barred() && unresolved_frames < kUnresolvedFrames) return false;
   const double r = body->crack_edge;
   const auto breaks = [&](const LastLigament& ligament) {
     if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
     if (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) return driven(ligament, 1);
-    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r && driven(ligament, kOverload);
+    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r && driven(ligament, kOverloadedRim);
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
   if (std::none_of(ligaments.begin(), ligaments.end(), breaks)) return false;
-  return !settings.cut_before_separated || parts(breaks);
+  return parts(breaks);
 }
 
-// One new crack at a time, where the stress as last solved exceeds the strength most.
-void Fracture::State::start_cracks(StepReport& report) {
-  if (new_cracks >= settings.max_cracks) return;
-  for (const CrackSite& site : find_crack_sites(*body, crack, bem.body(), 1)) {
-    append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(site)));
-    ++new_cracks;
-    ++report.new_cracks;
-  }
+// A new crack where the stress as last solved exceeds the strength most. Whether there is one.
+bool Fracture::State::start_crack(StepReport& report) {
+  const std::vector<CrackSite> sites = find_crack_sites(*body, crack, bem.body(), 1);
+  if (sites.empty()) return false;
+  append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(sites[0])));
+  ++new_cracks;
+  if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
   fine.append_parts(crack.sheet);
   if (visible) visible->append_parts(crack.sheet);
+  return true;
+}
+
+// Several in one frame: the body is solved again after each, so that the next one feels how far it relieves
+// the stress around it. Where that cannot be solved no more start.
+void Fracture::State::start_cracks(StepReport& report) try {
+  for (int i = 0; i < settings.max_cracks_per_frame && new_cracks < settings.max_cracks; ++i) {
+    if (i > 0) {
+      update_crack(crack, body->surface, body->crack_edge);
+      bem.solve(crack.cut);
+    }
+    if (!start_crack(report)) return;
+  }
+} catch (const SingularSystem&) {  // with the crack just started: it is the last one of this frame
 }
 
 void Fracture::State::start(StepReport& report) {
@@ -224,7 +232,7 @@ void Fracture::State::start(StepReport& report) {
 
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
-  report.source = predictor && report.frame > 1 ? predictor->name() : bem.name();
+  report.source = predictor && !first(report.frame) ? predictor->name() : bem.name();
   if (predictor) {
     openings = predictor->open(crack);
     return;
@@ -235,7 +243,7 @@ void Fracture::State::compute_openings(StepReport& report) {
     if (const ContactReport& contact = bem.body().contact(); !contact.converged)
       report.warnings.push_back(fmt::format("frame {}: {}", report.frame, contact_warning(contact)));
   } catch (const SingularSystem& error) {
-    if (report.frame == 1 || carried == kMostCarried) throw;
+    if (first(report.frame) || carried == kMostCarried) throw;
     if (carried++ == 0)
       report.warnings.push_back(fmt::format("frame {}: {}; the front goes straight on with K as last solved",
                                             report.frame, error.what()));
@@ -290,7 +298,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   compute_openings(report);
   report.opening_seconds = clock.lap();
   frame = report.frame;
-  std::vector<FrontStep> steps = decide(report);
+  const std::vector<FrontStep> steps = decide(report);
   for (FractureObserver* observer : observers)
     observer->on_opening(self);
   if (!predictor) history.remember(crack, openings);
@@ -302,7 +310,6 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const std::size_t fronts_before = crack.sheet.fronts.size();
   if (solved()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
-  if (solved() && !new_crack) correct_directions(steps, crack, fine, growth, *body, bem);
   report.opening_seconds += clock.lap();
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty())
@@ -345,7 +352,7 @@ StepReport Fracture::step() {
   try {
     s.compute_frame(*this, report);
   } catch (const SingularSystem& error) {
-    if (report.frame == 1) throw;
+    if (s.first(report.frame)) throw;
     report.warnings.push_back(fmt::format("frame {}: {}; the run ends here and keeps the frames before",
                                           report.frame, error.what()));
     s.stop = StopReason::singular;
@@ -363,6 +370,10 @@ void Fracture::set_load(LoadCase load) {
   if (s.stop != StopReason::arrested && s.stop != StopReason::intact) return;
   if (s.stop == StopReason::intact) s.started = false;  // a crack is looked for again
   s.stop.reset();
+}
+
+void Fracture::count_from(int frames) {
+  state_->before = state_->frame = frames;
 }
 
 void Fracture::add_observer(FractureObserver& observer) {
@@ -398,7 +409,7 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
   return state_->decisions;
 }
 bool Fracture::solved() const {
-  return state_->predictor ? state_->frame <= 1 : state_->solved();
+  return state_->predictor ? state_->first(state_->frame) : state_->solved();
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();
@@ -409,8 +420,11 @@ const FrontHistory& Fracture::history() const {
 double Fracture::rayleigh_speed() const {
   return state_->rayleigh_speed;
 }
+std::size_t Fracture::new_cracks() const {
+  return static_cast<std::size_t>(state_->new_cracks);
+}
 std::size_t Fracture::cracks() const {
-  return state_->body->cracks.size() + static_cast<std::size_t>(state_->new_cracks);
+  return state_->body->cracks.size() + new_cracks();
 }
 
 std::vector<TriMesh> Fracture::visible_sheets() const {

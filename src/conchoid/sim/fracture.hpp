@@ -9,6 +9,7 @@
 #include "conchoid/crack/fine/fine_front.hpp"
 #include "conchoid/io/outcome.hpp"
 #include "conchoid/sim/body_cut.hpp"
+#include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -36,6 +37,7 @@ struct StepReport {
   std::size_t front_points = 0;     ///< of the coarse fronts inside the body, before the advance
   std::size_t crack_triangles = 0;  ///< boundary elements of the cracks, after the advance
   std::size_t new_cracks = 0;       ///< that started in this step
+  StressPeak start;                 ///< where the first of these started, and the stress that made it
   double largest_intensity = 0;     ///< K_eff [Pa√m]
   std::vector<std::string> warnings;
   double start_seconds = 0;  ///< of looking for the first crack in the body without one, in the first step
@@ -86,6 +88,10 @@ class Fracture {
   /// Another load of the same kinds from the next step on; a fracture that was arrested or intact goes on.
   void set_load(LoadCase load);
 
+  /// Frames are counted from here on, for a piece of a body that has broken in so many frames; call it before
+  /// the first step.
+  void count_from(int frames);
+
   /// Must outlive the fracture. Called in the order they were added.
   void add_observer(FractureObserver& observer);
   /// Where the rows of the cracks are looked for and kept (bem/row_store.hpp); must outlive the fracture.
@@ -94,7 +100,7 @@ class Fracture {
   const PreparedBody& body() const;
   const RunSpec& settings() const;
   const LoadCase& load() const;
-  /// Number of frames whose opening is known.
+  /// Number of frames whose opening is known, and of those counted from.
   int frame() const;
   std::optional<StopReason> stop() const;
   const CrackState& crack() const;
@@ -110,6 +116,8 @@ class Fracture {
   const FrontHistory& history() const;
   /// Speed of a front that nothing holds back: Rayleigh's [m/s].
   double rayleigh_speed() const;
+  /// Cracks that started in it.
+  std::size_t new_cracks() const;
   /// Cracks that started or were there.
   std::size_t cracks() const;
 

@@ -8,8 +8,8 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/recorders.hpp"
-#include "conchoid/sim/run.hpp"
 
 namespace conchoid {
 namespace {
@@ -46,20 +46,18 @@ GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const 
   record.beta = load.rotation;
   try {
     const Scene scene = loaded_scene(spec, load);
-    RunSpec settings = scene.run;
-    settings.cut_before_separated = false;
-    Fracture fracture(body, load_of(scene, *body), settings);
+    Breakup breakup(scene, body, {BreakupSettings::After::chips});
     GrowthRecorder growth;
     SampleRecorder samples;
-    fracture.add_observer(growth);
-    fracture.add_observer(samples);
-    const StopReason stop = run_frames(fracture, scene.run.frames);
+    breakup.add_observer(growth);
+    breakup.add_observer(samples);
+    const StopReason stop = breakup.run(scene.run.frames);
     if (stop == StopReason::interrupted) throw Interrupted("interrupted");
-    record.frames = fracture.frame();
+    record.frames = breakup.frame();
     record.stop = name(stop);
     record.reason =
         exclusion_reason({record.alpha, record.frames, stop != StopReason::frame_limit,
-                          static_cast<std::int32_t>(fracture.cracks()), growth.largest(), body->crack_edge},
+                          static_cast<std::int32_t>(breakup.cracks()), growth.largest(), body->crack_edge},
                          spec.exclusion);
     out.samples = samples.take();
     for (std::int32_t& id : out.samples.run())

@@ -1,5 +1,8 @@
 #include "conchoid/sim/pieces.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +54,24 @@ TriMesh crack_surface(const Fracture& fracture) {
   for (Vec3& x : crack.positions)
     x += body.origin;
   return crack;
+}
+
+void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& output) {
+  const double volume = enclosed_volume(body.detailed);
+  const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / volume); };
+  std::stable_sort(pieces.fragments.begin(), pieces.fragments.end(),
+                   [&](const Fragment& x, const Fragment& y) { return size(x) > size(y); });
+  pieces.contacts = fragment_contacts(pieces.fragments);
+  // Attributes are made about the body's centre, then every bit of a position is as it was.
+  std::vector<IdVector<NodeId, Vec3>> positions;
+  for (Fragment& f : pieces.fragments) {
+    positions.push_back(f.mesh.positions);
+    for (Vec3& x : f.mesh.positions)
+      x -= body.origin;
+  }
+  transfer_attributes(pieces.fragments, body.detailed, body.attributes, attribute_settings(output, body));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    pieces.fragments[i].mesh.positions = std::move(positions[i]);
 }
 
 Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {

@@ -23,6 +23,10 @@ struct Pieces {
 /// joined to neighbours as the run's settings say. The infinite body has no pieces.
 Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output = {});
 
+/// Largest first, with contacts and attributes made anew, for pieces that were cut one after the other.
+/// @param pieces  in the body's coordinates, Fragment::source leads back to `body`
+void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& output);
+
 /// The visible crack surface alone, trimmed to the body: for runs whose pieces nobody asks for.
 TriMesh crack_surface(const Fracture& fracture);
 

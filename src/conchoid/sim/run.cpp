@@ -8,9 +8,10 @@
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/checkpoint.hpp"
+#include "conchoid/sim/load_report.hpp"
 #include "conchoid/sim/methods.hpp"
-#include "conchoid/sim/pieces.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run_identity.hpp"
 
@@ -47,6 +48,10 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
       {"run.quadrature_tolerance", scene.run.quadrature_tolerance},
       {"run.frames", static_cast<std::int64_t>(options.frames.value_or(scene.run.frames))},
       {"run.max_cracks", static_cast<std::int64_t>(scene.run.max_cracks)},
+      {"run.max_cracks_per_frame", static_cast<std::int64_t>(scene.run.max_cracks_per_frame)},
+      {"run.after_separation",
+       std::string(scene.run.after_separation == AfterSeparation::stop ? "stop" : "continue")},
+      {"run.smallest_body", scene.run.smallest_body},
       {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
       {"run.solver", scene.run.solver},
       {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
@@ -123,21 +128,34 @@ class ReportWriter : public FractureObserver {
   RunDocument& doc_;
 };
 
-void cut(const Fracture& fracture, const Scene& scene, const RunOptions& options, RunResult& result) {
+void take_pieces(Breakup& breakup, RunResult& result) {
   RunDocument& doc = result.document;
-  if (!options.fragments) {
-    result.crack = crack_surface(fracture);
-    return;
-  }
-  Pieces pieces = cut_into_pieces(fracture, scene.output);
+  Pieces pieces = breakup.take_pieces();
   add_warnings(pieces.warnings, doc);
   result.crack = std::move(pieces.crack);
   result.fragments = std::move(pieces.fragments);
   doc.contacts = std::move(pieces.contacts);
-  // The coarse crack may end a triangle short of where the fine one has cut through.
-  if (doc.stop == StopReason::arrested && result.fragments.size() > 1) doc.stop = StopReason::separated;
+  doc.crack_area = surface_area(result.crack);
   for (const Fragment& f : result.fragments)
     doc.fragments.push_back(fragment_record(f));
+}
+
+void add_load(const LoadReport& load, const RunSpec& run, RunDocument& doc) {
+  doc.stress_over_strength = load.stress_over_strength();
+  doc.largest_K_over_Kc = load.largest_K_over_Kc();
+  doc.stop_details = load.details(doc.stop, run);
+  add_warnings(load.warnings(doc.stop, run), doc);
+}
+
+BreakupSettings breakup_settings(const Scene& scene, const RunOptions& options, const OpeningMethod& method) {
+  BreakupSettings settings;
+  if (!options.fragments) settings.after = BreakupSettings::After::stop;
+  settings.source = [&scene, &options, &method](const PreparedBody& body) -> MakeOpeningSource {
+    return [&](BemOpening& bem) {
+      return method.make({bem, body.material, body, sif_settings(scene.run), options.regressor});
+    };
+  };
+  return settings;
 }
 
 }  // namespace
@@ -154,37 +172,37 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
   RunResult result;
   RunDocument& doc = result.document = describe(scene, *body, options);
-  Fracture fracture(body, load_of(scene, *body), scene.run, [&](BemOpening& bem) {
-    return method.make({bem, body->material, *body, sif_settings(scene.run), options.regressor});
-  });
-  Places places = open_places(fracture, scene, options);
+  Breakup breakup(scene, body, breakup_settings(scene, options, method));
+  Places places = open_places(breakup.fracture(), scene, options);
   std::optional<FrameWriter> frames;
   if (places.checkpoint) {
     doc.resumed_after = places.checkpoint->frames();
-    fracture.keep_rows(&*places.checkpoint);
+    breakup.keep_rows(&*places.checkpoint);
     frames.emplace(*places.folder, scene.output.exaggeration);
-    fracture.add_observer(*frames);
-    fracture.add_observer(*places.checkpoint);
+    breakup.add_observer(*frames);
+    breakup.add_observer(*places.checkpoint);
   }
   FrontRecorder front;
   GrowthRecorder growth;
   SampleRecorder samples;
+  LoadReport load;
   ReportWriter report(doc);
   for (FractureObserver* observer :
-       std::initializer_list<FractureObserver*>{&front, &growth, &samples, &report})
-    fracture.add_observer(*observer);
+       std::initializer_list<FractureObserver*>{&front, &growth, &samples, &load, &report})
+    breakup.add_observer(*observer);
   const int limit = options.frames.value_or(scene.run.frames);
   std::optional<Progress> progress;
   if (options.progress) progress.emplace("frames", static_cast<std::size_t>(limit));
-  doc.stop = run_frames(fracture, limit, [&] {
+  doc.stop = breakup.run(limit, [&] {
     if (progress) progress->advance();
   });
   progress.reset();
-  doc.final_triangles = body->surface.triangle_count() + fracture.crack().trimmed.triangle_count();
-  cut(fracture, scene, options, result);
+  doc.final_triangles = breakup.triangles();
+  take_pieces(breakup, result);
+  add_load(load, scene.run, doc);
   result.front = front.take();
   result.samples = samples.take();
-  result.cracks = static_cast<int>(fracture.cracks());
+  result.cracks = static_cast<int>(breakup.cracks());
   result.largest_growth = growth.largest();
   doc.hash = result_hash(result);
   doc.total_seconds = seconds_since(start);

@@ -22,7 +22,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
   bool resume = false;    ///< go on after the last complete frame of the folder, if any
-  bool fragments = true;  ///< cut the body at the end
+  bool fragments = true;  ///< cut the body; without, the run ends when it comes apart
   bool progress = true;   ///< a line on the terminal
 };
 
@@ -37,12 +37,12 @@ struct RunResult {
   double largest_growth = 0;        ///< farthest that any front has travelled [m]
 };
 
-/// Runs a scene: solve or predict the opening, SIFs, advance, until the fronts are arrested, the body is
-/// separated or the frame limit is reached; then cut the body. document.stop says which (io/outcome.hpp). Same
+/// Runs a scene: solve or predict the opening, SIFs, advance, until nothing moves in the body and its pieces or
+/// the frame limit is reached; what comes apart is cut. document.stop says which (io/outcome.hpp). Same
 /// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
 /// Throws InputError for an unknown method or a regressor that does not go with it, and when what is to be
 /// resumed belongs to another scene, method, regressor or version. For more than one load, or one step at a
-/// time: Fracture (fracture.hpp), which this is a thin driver of.
+/// time: Fracture (fracture.hpp) and Breakup (breakup.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);
 
 /// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and

@@ -75,13 +75,16 @@ void add(ContentHash& hash, const LoadCase& load, const TriMesh& surface) {
     add(hash, load.ambient.stress(x));
 }
 
-// How many frames are wanted and what becomes of the pieces is no part of it.
+// How many frames are wanted is no part of it.
 void add(ContentHash& hash, const RunSpec& run) {
   hash.add(static_cast<std::uint64_t>(run.max_cracks));
   hash.add(run.seed);
+  hash.add(std::array{static_cast<double>(run.max_cracks_per_frame), run.smallest_body, run.smallest_fragment,
+                      static_cast<double>(run.max_fragments)});
   for (const bool choice :
        {run.inertia_relief, run.contact, run.published_compression, run.exact_rayleigh_speed,
-        run.sif == SifSource::one_point, run.sif_convention == OpeningConvention::half})
+        run.sif == SifSource::one_point, run.sif_convention == OpeningConvention::half,
+        run.after_separation == AfterSeparation::stop})
     hash.add(static_cast<std::uint64_t>(choice));
   hash.add(run.quadrature_tolerance);
 }

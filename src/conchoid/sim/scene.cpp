@@ -252,13 +252,16 @@ RunSpec read_run(const TomlTable& file) {
   table->require_known_keys();
   table->read("frames", run.frames);
   table->read("max_cracks", run.max_cracks);
+  table->read("max_cracks_per_frame", run.max_cracks_per_frame);
+  table->read("smallest_body", run.smallest_body);
   table->read("seed", run.seed);
   table->read("inertia_relief", run.inertia_relief);
   table->read("contact", run.contact);
   table->read("quadrature_tolerance", run.quadrature_tolerance);
   table->read("smallest_fragment", run.smallest_fragment);
   table->read("max_fragments", run.max_fragments);
-  std::string sif = "two-point", convention = "full-opening", rayleigh = "exact", compression = "closed";
+  std::string sif = "two-point", convention = "full-opening", rayleigh = "exact", compression = "closed",
+              after = "continue";
   table->read("sif", sif);
   table->read("sif_convention", convention);
   table->read("rayleigh", rayleigh);
@@ -266,6 +269,8 @@ RunSpec read_run(const TomlTable& file) {
   run.sif_convention = convention == "full-opening" ? OpeningConvention::full : OpeningConvention::half;
   run.exact_rayleigh_speed = rayleigh == "exact";
   table->read("compression", compression);
+  table->read("after_separation", after);
+  run.after_separation = after == "stop" ? AfterSeparation::stop : AfterSeparation::go_on;
   run.published_compression = compression == "published";
   if (run.published_compression && run.contact)
     table->fail("compression",

@@ -78,10 +78,14 @@ struct CrackSpec {
 
 enum class SifSource { two_point, one_point };
 enum class OpeningConvention { full, half };
+enum class AfterSeparation { go_on, stop };
 
 struct RunSpec {
   int frames = 30;
-  int max_cracks = 1;
+  int max_cracks = 1;            ///< of the whole run, in the body and its pieces
+  int max_cracks_per_frame = 1;  ///< ≥ 1
+  AfterSeparation after_separation = AfterSeparation::go_on;
+  double smallest_body = 1e-2;  ///< share of the body's volume below which a piece breaks no further
   std::uint64_t seed = 1;
   bool inertia_relief = false;
   bool contact = true;
@@ -93,9 +97,6 @@ struct RunSpec {
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
   int max_fragments = 0;            ///< 0: no limit
-  /// Whether the detailed body is cut before a fracture counts as separated; no key of the scene. Where nobody
-  /// asks for the pieces the cut of the boundary elements will do.
-  bool cut_before_separated = true;
 };
 
 struct Scene {

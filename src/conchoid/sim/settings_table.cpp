@@ -230,9 +230,34 @@ const std::vector<Setting>& settings() {
       {"run", "frames", integer, "frames", "30",
        "most frames to simulate; a front moves at most crack per frame", between(1, 100000)},
       {"run", "max_cracks", integer, "cracks", "1",
-       "new cracks that may start, on the surface or as branches on faces of cracks; 0: only the initial "
-       "ones",
+       "new cracks that may start in the whole run, on the surface or as branches on faces of cracks; 0: "
+       "only "
+       "the initial ones",
        between(0, 10000)},
+      {"run", "max_cracks_per_frame", integer, "cracks", "1",
+       "new cracks that may start in one frame; the body is solved again after each, so that the next one "
+       "feels the relief",
+       between(1, 10000)},
+      {"run",
+       "after_separation",
+       text,
+       "",
+       "\"continue\"",
+       "continue: pieces that carry load go on breaking, each as a body of its own, and what nothing holds "
+       "is "
+       "accelerated by its load. stop: the run ends when the body comes apart, as published. Databases stop",
+       {},
+       0,
+       {"continue", "stop"}},
+      {"run",
+       "smallest_body",
+       number,
+       "of the body",
+       "1e-2",
+       "pieces below this share of the first body's volume, or below 8 resolution.crack³, break no further. "
+       "A "
+       "piece so small does not end the run of a database",
+       {.low = 0, .high = 1}},
       {"run", "seed", integer, "", "1", "of everything random", between(0, 9007199254740992.0)},
       {"run", "inertia_relief", boolean, "", "false",
        "true: loads out of balance accelerate the body as a whole instead of being refused"},
@@ -287,8 +312,7 @@ const std::vector<Setting>& settings() {
        {.low = 0, .high = 1, .high_included = false}},
       {"run", "max_fragments", integer, "pieces", "0",
        "the smallest pieces are joined to the neighbour with which they share the most fracture area until "
-       "there "
-       "are so few; 0: all stay",
+       "there are so few, and with so many the run ends; 0: all stay",
        between(0, 1e6)},
 
       {"output",

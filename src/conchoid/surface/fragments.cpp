@@ -28,8 +28,8 @@ struct Piece {
 std::vector<bool> slit_pieces(const CutComplex& cut, const Shells& shells) {
   std::vector<bool> slit(cut.sheet.size());
   for (std::size_t s = 0; s < slit.size(); ++s)
-    slit[s] = shells.solid[shells.surface_faces + s] ==
-              shells.solid[shells.surface_faces + shells.sheet_faces + s];
+    slit[s] =
+        shells.solid[shells.surface_faces + s] == shells.solid[shells.surface_faces + shells.sheet_faces + s];
   return slit;
 }
 
@@ -173,9 +173,8 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const She
   std::exception_ptr failure;
   for (const double share : shares)
     try {
-      CutPieces cut = share == 0
-                          ? cut_piece_once(piece, sheet, how)
-                          : cut_piece_once(piece, nudged(sheet, share), how);
+      CutPieces cut =
+          share == 0 ? cut_piece_once(piece, sheet, how) : cut_piece_once(piece, nudged(sheet, share), how);
       if (cut.clean) return std::move(cut.pieces);
       if (fallback.empty()) fallback = std::move(cut.pieces);
     } catch (const ComputationError&) {

@@ -123,7 +123,8 @@ AdvanceResult advance_fronts(CrackSheet& sheet, FineFront& fine, const std::vect
   stop_at_fronts(sheet, expected, target_edge, limits);
   wait_in_corners(sheet, expected, limits);
   for (FrontStep& step : steps)
-    if (const auto at = limits.find(step.node); at != limits.end()) step.limit = std::min(step.limit, at->second);
+    if (const auto at = limits.find(step.node); at != limits.end())
+      step.limit = std::min(step.limit, at->second);
   std::erase_if(steps, [&](const FrontStep& step) { return step.limit < kLeastStep * target_edge; });
   const auto motions = fine.advance(sheet, steps, model);
   if (follower) follower->advance(sheet, steps, model, fine);

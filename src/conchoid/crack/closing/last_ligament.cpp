@@ -60,9 +60,8 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
     found.push_back({grid, std::move(partition), std::move(faces), std::sqrt(widest),
                      cell_volume * static_cast<double>(std::min(upper, lower))});
   }
-  std::stable_sort(found.begin(), found.end(), [](const LastLigament& x, const LastLigament& y) {
-    return x.half_width < y.half_width;
-  });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const LastLigament& x, const LastLigament& y) { return x.half_width < y.half_width; });
   return found;
 }
 

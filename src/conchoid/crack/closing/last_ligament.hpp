@@ -34,6 +34,7 @@ struct LigamentOverlap {
 /// joins, laid over what is near their fronts, crossing their faces once behind them and the body's surface, so
 /// that nothing leaks between, unless the cracks are uneven within a cell; then another overlap may do. What of it
 /// lies between two parts of one piece is not meant to be cut.
-TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap = {});
+TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets,
+                         const LigamentOverlap& overlap = {});
 
 }  // namespace conchoid

@@ -52,7 +52,11 @@ std::optional<double> passes(const Vec3& a, const Vec3& b, const Triangle& x) {
 class SurfaceMaker {
  public:
   SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap)
-      : grid_(*ligament.grid), overlap_(overlap), sheets_(sheets), tree_(sheets), side_(ligament.partition.side) {
+      : grid_(*ligament.grid),
+        overlap_(overlap),
+        sheets_(sheets),
+        tree_(sheets),
+        side_(ligament.partition.side) {
     spread_outside();
     near_.assign(grid_.cells(), false);
     for (const Vec3& x : ligament.faces)
@@ -94,7 +98,8 @@ class SurfaceMaker {
       for (int j = -1; j <= 1; ++j)
         for (int k = -1; k <= 1; ++k) {
           const std::array<int, 3> to{at[0] + i, at[1] + j, at[2] + k};
-          if ((i != 0 || j != 0 || k != 0) && in_grid(to)) visit(grid_.cell(to[0], to[1], to[2]), 4 - std::abs(i) - std::abs(j) - std::abs(k));
+          if ((i != 0 || j != 0 || k != 0) && in_grid(to))
+            visit(grid_.cell(to[0], to[1], to[2]), 4 - std::abs(i) - std::abs(j) - std::abs(k));
         }
   }
 
@@ -213,7 +218,8 @@ class SurfaceMaker {
     }
     const ClosestPointTree tree(line);
     for (std::size_t i = 0; i < cells.size(); ++i)
-      cells[i] = std::min(cells[i], std::sqrt(tree.closest(mesh_.positions[NodeId(i)]).squared_distance) / grid_.size());
+      cells[i] = std::min(
+          cells[i], std::sqrt(tree.closest(mesh_.positions[NodeId(i)]).squared_distance) / grid_.size());
     return cells;
   }
 
@@ -262,7 +268,8 @@ class SurfaceMaker {
 
 }  // namespace
 
-TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap) {
+TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets,
+                         const LigamentOverlap& overlap) {
   return SurfaceMaker(ligament, sheets, overlap).run();
 }
 

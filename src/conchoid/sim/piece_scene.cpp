@@ -1,0 +1,111 @@
+#include "conchoid/sim/piece_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/remesh/remesh.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr int kFewestElements = 120;                   // of a piece, however small: as the built-in cube
+constexpr std::array kTargets{1.0, 1.4, 2.0};          // × the elements wanted, until the mesh can be made
+constexpr int kMostElements = 200000, kFewFaces = 20;  // that remesh() takes
+
+double area_of(const TriMesh& surface, const Region& region) {
+  double area = 0;
+  for (const TriId t : region.triangles)
+    area += area_vector(surface, t).norm();
+  return area;
+}
+
+TriMesh elements_of(const TriMesh& piece, double element_area) {
+  const double wanted = std::max<double>(kFewestElements, surface_area(piece) / element_area);
+  for (std::size_t i = 0;; ++i)
+    try {
+      return remesh(piece, static_cast<int>(std::clamp<double>(std::round(kTargets[i] * wanted), kFewFaces,
+                                                               kMostElements)));
+    } catch (const ComputationError&) {
+      if (i + 1 == kTargets.size()) throw;
+    }
+}
+
+// Which region of the body the elements of the piece belong to; −1: none.
+class RegionTransfer {
+ public:
+  RegionTransfer(const PreparedBody& body, const Fragment& fragment, const TriMesh& piece)
+      : body_(body),
+        fragment_(fragment),
+        region_(region_of_triangles(body.surface, body.regions)),
+        same_mesh_(body.surface.corners == body.detailed.corners &&
+                   body.surface.positions == body.detailed.positions),
+        faces_(piece),
+        elements_(body.surface) {}
+
+  int of_element(const Vec3& x) const {
+    const std::size_t on = faces_.closest(x).triangle.index();
+    const UnfinishedCracks& cracks = fragment_.unfinished;
+    const std::size_t face = cracks.solid_face.empty() ? on : cracks.solid_face[on].index();
+    if (fragment_.face_kind[face] == FaceKind::fracture) return -1;
+    return region_[same_mesh_ ? fragment_.source[face] : elements_.closest(x - body_.origin).triangle];
+  }
+
+ private:
+  const PreparedBody& body_;
+  const Fragment& fragment_;
+  IdVector<TriId, int> region_;
+  bool same_mesh_;
+  ClosestPointTree faces_, elements_;
+};
+
+std::vector<Region> regions_of_piece(const PreparedBody& body, const Fragment& fragment, const Body& piece) {
+  std::vector<Region> regions;
+  for (const Region& r : body.regions)
+    regions.push_back({r.name, {}});
+  const RegionTransfer transfer(body, fragment, piece.detailed);
+  for (std::size_t t = 0; t < piece.surface.triangle_count(); ++t)
+    if (const int r = transfer.of_element(centroid(piece.surface, TriId(t))); r >= 0)
+      regions[static_cast<std::size_t>(r)].triangles.emplace_back(t);
+  std::erase_if(regions, [](const Region& r) { return r.triangles.empty(); });
+  return regions;
+}
+
+}  // namespace
+
+PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fragment& fragment) {
+  PieceScene out{body_from_fragment(fragment, body.pieces), scene};
+  out.body.surface = elements_of(
+      out.body.detailed, surface_area(body.surface) / static_cast<double>(body.surface.triangle_count()));
+  out.body.regions = regions_of_piece(body, fragment, out.body);
+  out.scene.regions.clear();
+  out.scene.cracks.clear();
+  out.scene.boundary.clear();
+  for (BoundaryCondition condition : scene.boundary) {
+    if (!find_region(out.body.regions, condition.region)) continue;
+    if (condition.kind == ConditionKind::force) {
+      condition.kind = ConditionKind::traction;
+      condition.value /= area_of(body.surface, *find_region(body.regions, condition.region));
+    }
+    out.scene.boundary.push_back(condition);
+  }
+  out.scene.resolution = {body.crack_edge, body.surface_edge};
+  out.scene.run.inertia_relief = true;
+  return out;
+}
+
+bool is_loaded(const Scene& scene) {
+  const BoundaryCondition* held = nullptr;
+  for (const BoundaryCondition& c : scene.boundary) {
+    if (c.kind != ConditionKind::displacement) {
+      if (!c.value.isZero(0)) return true;
+      continue;
+    }
+    if (held && held->value != c.value) return true;
+    held = &c;
+  }
+  return false;
+}
+
+}  // namespace conchoid
