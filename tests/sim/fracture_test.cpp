@@ -59,7 +59,8 @@ class FullDisk : public FractureObserver {
 }  // namespace
 
 TEST(Fracture, StepsAreTheFramesOfARun) {
-  const Scene scene = cube();
+  Scene scene = cube();
+  scene.run.after_separation = AfterSeparation::stop;
   RunOptions options;
   options.progress = false;
   const RunResult run = run_scene(scene, options);

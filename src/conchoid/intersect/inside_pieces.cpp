@@ -36,7 +36,7 @@ std::vector<int> vote_at_mouth(const std::vector<Half>& halves, const std::vecto
     std::size_t end = begin + 1;
     while (end < halves.size() && halves[end].edge == halves[begin].edge)
       ++end;
-    if (end - begin > 2) throw InputError("the crack sheet has an edge with more than two triangles");
+    if (end - begin > 2) throw ComputationError("the crack sheet has an edge with more than two triangles");
     while (m != mouth.end() && m->first < halves[begin].edge)
       ++m;
     if (m != mouth.end() && m->first == halves[begin].edge) {

@@ -293,7 +293,7 @@ void Breakup::State::end_body(StopReason reason) {
 void Breakup::State::step_piece(StepReport& report) {
   try {
     report = fracture->step();
-  } catch (const SingularSystem& error) {
+  } catch (const ComputationError& error) {
     give_up(error);
     report.stop = StopReason::singular;
   }

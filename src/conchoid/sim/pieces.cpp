@@ -42,6 +42,8 @@ TriMesh trimmed_crack(const PreparedBody& body, const std::vector<TriMesh>& shee
     return part_inside(corefine(body.detailed, join(sheets)));
   } catch (const ComputationError&) {
     return join(sheets);
+  } catch (const InputError&) {
+    return join(sheets);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
@@ -64,7 +65,12 @@ void set_parameters(MarkerCurve& curve, const std::vector<NodeId>& coarse) {
   if (stops.empty()) return;
   const std::size_t n = curve.size();
   const auto period = static_cast<double>(coarse.size());
-  const auto place_of = [&](std::size_t r) { return place.at(curve.markers[stops[r]].coarse); };
+  const auto place_of = [&](std::size_t r) {
+    const auto at = place.find(curve.markers[stops[r]].coarse);
+    if (at == place.end())
+      throw ComputationError("the markers of a crack front have lost the coarse nodes they are attached to");
+    return at->second;
+  };
   const auto of = [&](std::size_t r) {
     return static_cast<double>(place_of(r)) + curve.markers[stops[r]].offset;
   };
