@@ -100,20 +100,6 @@ TEST(NotchedBar, ThreePointBendingPartsItFromTheNotchToTheLoad) {
     EXPECT_LT(std::abs(row.position.x()), 0.0125);  // half the load's width
 }
 
-// With both supports held the bar is an arch: K of a crack across its middle falls from 12 MPa√m at z =
-// −5 mm to nothing at 10 mm (straight cracks, r̄ = 5 mm). What is above is pressed together, and the crack has
-// no cause to go elsewhere.
-TEST(NotchedBar, HeldAtBothSupportsItsCrackStopsBelowTheLoad) {
-  const RunResult result = run(bar_text() + "[[boundary]]\nregion = 'support-left'\nfixed = true\n" +
-                               "[[boundary]]\nregion = 'support-right'\nfixed = true\n" +
-                               test::boundary_text("load", "traction", {0, 0, -1e8}));
-  EXPECT_EQ(result.document.stop, StopReason::arrested);
-  EXPECT_TRUE(result.document.warnings.empty());             // contact has come to its end in every frame
-  EXPECT_LT(surface_area(result.crack), 4.5 * 0.04 * 0.04);  // 13 as a roll along the bar
-  for (const FrontRow& row : result.front)
-    EXPECT_LT(std::abs(row.position.x()), 0.02);
-}
-
 class PressedDisc : public ::testing::TestWithParam<int> {};
 
 TEST_P(PressedDisc, SplitsAlongTheLoad) {

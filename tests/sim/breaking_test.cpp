@@ -42,7 +42,7 @@ TEST_P(SeveralCracks, PartThePulledCube) {
   const RunResult result =
       run_text("[body]\nmodel = 'cube'\n" + glass() + test::boundary_text("z+", "traction", {0, 0, 6e7}) +
                "[[boundary]]\nregion = 'z-'\nfixed = true\n[resolution]\nsurface = 0.02\n" +
-               fmt::format("[run]\nframes = 20\nmax_cracks = {}\n", GetParam()));
+               fmt::format("[run]\nafter_separation = 'stop'\nframes = 20\nmax_cracks = {}\n", GetParam()));
   expect_pieces(result, 2);
   EXPECT_LT(area(result), GetParam() + 1);
 }
@@ -58,7 +58,7 @@ TEST_P(SeveralCracks, PartThePulledBar) {
       test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
       test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
       test::boundary_text("high", "traction", {0, 0, 6e7}) + "[[boundary]]\nregion = 'low'\nfixed = true\n" +
-      fmt::format("[run]\nframes = 30\nmax_cracks = {}\n", GetParam()));
+      fmt::format("[run]\nafter_separation = 'stop'\nframes = 30\nmax_cracks = {}\n", GetParam()));
   expect_pieces(result, 2);
   EXPECT_LT(area(result), (GetParam() + 1) * 0.02 * 0.02);
 }
