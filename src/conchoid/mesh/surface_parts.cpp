@@ -142,4 +142,16 @@ std::vector<BoundaryLoop> boundary_loops(const TriMesh& mesh) {
   return loops;
 }
 
+TriMesh join(const std::vector<TriMesh>& meshes) {
+  TriMesh all;
+  for (const TriMesh& mesh : meshes) {
+    const std::size_t first = all.node_count();
+    all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    for (const auto& c : mesh.corners)
+      all.corners.push_back(
+          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
+  }
+  return all;
+}
+
 }  // namespace conchoid

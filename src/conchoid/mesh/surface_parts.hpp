@@ -24,6 +24,9 @@ std::vector<SurfacePart> surface_parts(const TriMesh& mesh);
 /// Some triangles as a mesh of their own; nodes in the order in which they come up.
 TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles);
 
+/// Meshes as one, side by side: nodes and triangles in their order.
+TriMesh join(const std::vector<TriMesh>& meshes);
+
 /// A closed chain of nodes along the boundary of a surface, in the direction that the triangles run through
 /// its edges. The first node is not repeated at the end.
 using BoundaryLoop = std::vector<NodeId>;

@@ -46,18 +46,6 @@ std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const Tr
 
 }  // namespace
 
-TriMesh join(const std::vector<TriMesh>& sheets) {
-  TriMesh all;
-  for (const TriMesh& sheet : sheets) {
-    const std::size_t first = all.node_count();
-    all.positions.insert(all.positions.end(), sheet.positions.begin(), sheet.positions.end());
-    for (const auto& c : sheet.corners)
-      all.corners.push_back(
-          {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
-  }
-  return all;
-}
-
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets) {
   BodyCut cut;
   cut.sheets = std::move(sheets);

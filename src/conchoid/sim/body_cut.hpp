@@ -28,7 +28,4 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
 void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
                   const std::function<bool(const LastLigament&)>& breaks);
 
-/// Sheets as one mesh.
-TriMesh join(const std::vector<TriMesh>& sheets);
-
 }  // namespace conchoid

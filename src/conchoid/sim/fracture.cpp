@@ -310,7 +310,6 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const std::size_t fronts_before = crack.sheet.fronts.size();
   if (solved()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
-  report.opening_seconds += clock.lap();
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty())
     advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,

@@ -5,6 +5,7 @@
 
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
 namespace {
@@ -13,15 +14,6 @@ double cell_size(const TriMesh& body, double target_edge) {
   const Box box = bounding_box(body);
   const double volume = std::abs((box.high - box.low).prod());
   return std::max(target_edge / kCellsPerEdge, std::cbrt(volume / kMostCells));
-}
-
-TriMesh joined(const TriMesh& a, const TriMesh& b) {
-  TriMesh all = a;
-  all.positions.insert(all.positions.end(), b.positions.begin(), b.positions.end());
-  const auto moved = [&](NodeId n) { return NodeId(n.index() + a.node_count()); };
-  for (const auto& c : b.corners)
-    all.corners.push_back({moved(c[0]), moved(c[1]), moved(c[2])});
-  return all;
 }
 
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
@@ -42,7 +34,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   if (sheets.corners.empty()) return {};
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<int> part = connected_parts(sheets);
-  const ClosestPointTree walls(joined(body, sheets));
+  const ClosestPointTree walls(join({body, sheets}));
   const double cell_volume = std::pow(grid->size(), 3);
   std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());

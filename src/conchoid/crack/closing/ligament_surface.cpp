@@ -9,6 +9,7 @@
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/crack_meshes.hpp"
 
 namespace conchoid {
 namespace {
@@ -19,23 +20,6 @@ using Link = std::pair<std::size_t, std::size_t>;  // of two cells: of the upper
 // Corner bits: 1, 2, 4 for a step along axis 0, 1, 2.
 constexpr std::array<std::array<int, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
-
-std::vector<Edge> rim(const TriMesh& mesh) {
-  std::vector<Edge> edges;
-  for (const auto& c : mesh.corners)
-    for (int k = 0; k < 3; ++k)
-      edges.emplace_back(c[k], c[(k + 1) % 3]);
-  std::sort(edges.begin(), edges.end());
-  std::vector<Edge> once;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i;
-    while (j < edges.size() && edges[j] == edges[i])
-      ++j;
-    if (j == i + 1) once.push_back(edges[i]);
-    i = j;
-  }
-  return once;
-}
 
 // Where a → b passes through the triangle, as a share of the way; none if it does not.
 std::optional<double> passes(const Vec3& a, const Vec3& b, const Triangle& x) {
@@ -63,7 +47,7 @@ class SurfaceMaker {
     for (const Vec3& x : ligament.faces)
       mark_near(x);
     // Wherever the cracks that part the two sides end: there they may not quite reach each other.
-    for (const Edge& e : rim(sheets))
+    for (const Edge& e : boundary_edges(sheets))
       mark_near(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
   }
 
@@ -185,7 +169,7 @@ class SurfaceMaker {
   // go over to the other: so it crosses the crack there.
   void place() {
     on_rim_.assign(mesh_.node_count(), false);
-    for (const Edge& e : rim(mesh_))
+    for (const Edge& e : boundary_edges(mesh_))
       on_rim_[e.a.index()] = on_rim_[e.b.index()] = true;
     const std::vector<double> from_rim = cells_from_rim();
     across_.assign(mesh_.node_count(), Vec3::Zero());
@@ -213,7 +197,7 @@ class SurfaceMaker {
   std::vector<double> cells_from_rim() const {
     std::vector<double> cells(mesh_.node_count(), kCrossingCells);
     TriMesh line;  // needles along the rim, for the tree
-    for (const Edge& e : rim(mesh_)) {
+    for (const Edge& e : boundary_edges(mesh_)) {
       const NodeId a = line.positions.add(mesh_.positions[e.a]), b = line.positions.add(mesh_.positions[e.b]);
       line.corners.push_back({a, b, b});
     }
