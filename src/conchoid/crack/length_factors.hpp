@@ -41,6 +41,8 @@ inline constexpr double kResolvedChange = 0.75;
 inline constexpr double kUnresolvedChange = 1.25;
 /// Passes of (1, 2, 1)/4 over K that is not resolved: a change of sign from node to node is gone after the first.
 inline constexpr int kIntensityPasses = 2;
+/// × the largest K along a front: what is less lies within a few times the error of the elements (docs/verification.md).
+inline constexpr double kTellingShare = 0.05;
 /// × the law's step, where K is reversed from node to node: the next frame may know better.
 inline constexpr double kLeastUnresolvedStep = 0.25;
 /// Of θ⁴, θ³, θ³ and θ² in what a kink θ does to the opening at it: fitted to kinked cracks in the plane of 8 … 70°
@@ -157,8 +159,8 @@ inline constexpr double kAlikeSheets = 0.5;
 inline constexpr std::size_t kNeighbourEdges = 3;
 /// × r̄: widest ligament that breaks; about an element, what lies in it is not resolved.
 inline constexpr double kWidestLigament = 1.4;
-/// × r̄: widest ligament that breaks where its rims have kOverloadedRim × K_c: the next two frames would take it.
-inline constexpr double kWidestOverloadedLigament = 2.2;
+/// × r̄: widest ligament that breaks where its rims have kOverloadedRim × K_c: the next step of its two sides would take most of it.
+inline constexpr double kWidestOverloadedLigament = 3;
 inline constexpr double kOverloadedRim = 5;
 /// × r̄: thinner ones break whatever K is said to be at their rims: no element fits in between.
 inline constexpr double kThinnestLigament = 0.5;
@@ -205,6 +207,8 @@ inline constexpr double kCellsPerEdge = 5;
 inline constexpr double kMostCells = 4e6;
 /// Cells on the smaller side of a cut at least; fewer are chips of the grid.
 inline constexpr int kFewestCells = 30;
+/// × r̄, from the cracks' ends: what is farther off is for the fronts to break.
+inline constexpr double kLigamentBand = 3;
 /// × face, for a crack's face that a cut leaves unused: an arm of a crack off the way costs little, and a cut
 /// is only made where what it breaks is less than this share of the crack it completes.
 inline constexpr double kUnusedFace = 0.3;

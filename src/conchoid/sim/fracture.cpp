@@ -14,6 +14,7 @@
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/sim/nearly_through.hpp"
 #include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
 
@@ -176,8 +177,10 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   if (body->infinite() || openings.size() != crack.points.size()) return false;
   // A front that has a single ligament to go mostly takes it in a frame or two.
   unresolved_frames = unresolved() ? unresolved_frames + 1 : 0;
-  if (!at_end && carried == 0 && !barred() && unresolved_frames < kUnresolvedFrames) return false;
   const double r = body->crack_edge;
+  if (!at_end && carried == 0 && !barred() && unresolved_frames < kUnresolvedFrames &&
+      !nearly_through(crack, body->surface, kWidestOverloadedLigament * r))
+    return false;
   const auto breaks = [&](const LastLigament& ligament) {
     if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
     if (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) return driven(ligament, 1);
@@ -269,7 +272,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     const bool stays = crack.sheet.state[point.node] == FrontState::arrested ||
                        (resolved[i].pressed && !settings.published_compression);
     d.length = stays ? 0 : resolved[i].step * growth.law->length(d.drive, d.toughness, r);
-    d.angle = ligament ? 0 : growth.law->direction(K);
+    d.angle = ligament ? 0 : resolved[i].turn * growth.law->direction(K);
     report.largest_intensity = std::max(report.largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
     if (d.length > 0 || (!stays && d.drive > 0 && !body->toughness.homogeneous()))

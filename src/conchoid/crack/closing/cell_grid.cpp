@@ -8,19 +8,49 @@
 namespace conchoid {
 namespace {
 
-// Orthonormal, the first axis along the largest principal value of ∫ n nᵀ dA. Where two values are equal any
-// axes between them do.
-Mat3 axes_across(const TriMesh& sheets) {
-  Mat3 tensor = Mat3::Zero();
-  for (std::size_t t = 0; t < sheets.triangle_count(); ++t) {
-    const Vec3 a = area_vector(sheets, TriId(t));
-    if (const double area = a.norm(); area > 0) tensor += a * a.transpose() / area;
+struct AreaMoments {
+  double area = 0;
+  Vec3 center = Vec3::Zero();
+  Mat3 normals = Mat3::Zero();  // ∫ n nᵀ dA
+  Mat3 places = Mat3::Zero();   // ∫ (x − center)(x − center)ᵀ dA, of the triangles' middles
+};
+
+AreaMoments area_moments(const TriMesh& mesh) {
+  AreaMoments m;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Vec3 a = area_vector(mesh, TriId(t));
+    const double area = a.norm();
+    if (area == 0) continue;
+    m.area += area;
+    m.center += area * centroid(mesh, TriId(t));
+    m.normals += a * a.transpose() / area;
   }
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(tensor);
+  if (m.area > 0) m.center /= m.area;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const Vec3 x = centroid(mesh, TriId(t)) - m.center;
+    m.places += area_vector(mesh, TriId(t)).norm() * x * x.transpose();
+  }
+  return m;
+}
+
+Vec3 largest_axis(const Mat3& tensor) {
+  return Eigen::SelfAdjointEigenSolver<Mat3>(tensor).eigenvectors().col(2);
+}
+
+// Orthonormal, perhaps left-handed: the first along the largest principal value of ∫ n nᵀ dA, the second across it
+// the way the cracks reach farthest, each from the body's middle towards the cracks'. So a mirrored body has the
+// mirrored grid. Where the cracks tell no difference any axes do.
+Mat3 axes_across(const TriMesh& body, const TriMesh& sheets) {
+  const AreaMoments cracks = area_moments(sheets);
   Mat3 axes;
-  axes.col(0) = eigen.eigenvectors().col(2);
-  axes.col(1) = eigen.eigenvectors().col(1);
+  axes.col(0) = largest_axis(cracks.normals);
+  const Mat3 across = Mat3::Identity() - axes.col(0) * axes.col(0).transpose();
+  axes.col(1) = largest_axis(across * cracks.places * across);
+  axes.col(1) = (across * axes.col(1)).normalized();
   axes.col(2) = conchoid::cross(axes.col(0), axes.col(1));
+  const Vec3 towards = cracks.center - area_moments(body).center;
+  for (int a = 0; a < 3; ++a)
+    if (axes.col(a).dot(towards) < 0) axes.col(a) *= -1;
   return axes;
 }
 
@@ -42,7 +72,7 @@ constexpr std::array<double, 3> kOffset{0.2718281828, 0.3141592653, 0.2236067977
 }  // namespace
 
 CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
-    : size_(size), axes_(axes_across(sheets)), origin_(Vec3::Zero()) {
+    : size_(size), axes_(axes_across(body, sheets)), origin_(Vec3::Zero()) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& x : body.positions) {
     const Vec3 local = axes_.transpose() * x / size_;
@@ -83,6 +113,7 @@ Vec3 CellGrid::center(std::size_t cell) const {
 template <class Found>
 void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  const bool right_handed = axes_.determinant() > 0;
   std::vector<Vec3> local;
   local.reserve(mesh.node_count());
   for (const Vec3& x : mesh.positions)
@@ -95,8 +126,8 @@ void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
       p[v] = {x[v][b], x[v][c]};
     const double area = turn(p[0], n[0], p[1], n[1], p[2]);
     if (area == 0) continue;
-    const bool upwards = area > 0;
-    if (!upwards) {
+    const bool upwards = (area > 0) == right_handed;
+    if (area < 0) {
       std::swap(n[1], n[2]);
       std::swap(x[1], x[2]);
       std::swap(p[1], p[2]);

@@ -18,8 +18,8 @@ struct SheetCrossing {
 
 /// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
 /// the same material exactly where a chain of neighbours leads from one to the other without a wall. The grid
-/// lies in the axes of the sheets' area tensor ∫ n nᵀ dA, the first across the cracks: what it says turns and
-/// moves with the body. Cells count along the third axis first.
+/// lies in axes of the sheets, the first across them by their area tensor ∫ n nᵀ dA, all towards where in the body
+/// they are: what it says turns, moves and is mirrored with the body. Cells count along the third axis first.
 class CellGrid {
  public:
   /// @param body    closed, outward
@@ -60,7 +60,7 @@ class CellGrid {
   void fill(const TriMesh& body);
 
   double size_;
-  Mat3 axes_;  // columns
+  Mat3 axes_;  // columns; perhaps left-handed
   Vec3 origin_;
   std::array<int, 3> count_{};
   std::array<std::size_t, 3> step_{};

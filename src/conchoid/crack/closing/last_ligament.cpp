@@ -1,10 +1,12 @@
 #include "conchoid/crack/closing/last_ligament.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
@@ -14,6 +16,33 @@ double cell_size(const TriMesh& body, double target_edge) {
   const Box box = bounding_box(body);
   const double volume = std::abs((box.high - box.low).prod());
   return std::max(target_edge / kCellsPerEdge, std::cbrt(volume / kMostCells));
+}
+
+// Cells within kLigamentBand of the cracks' ends inside of the body.
+std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
+  std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
+  const double reach = kLigamentBand * target_edge / grid.size();
+  const int most = static_cast<int>(std::ceil(reach));
+  for (const Edge& e : boundary_edges(sheets)) {
+    const Vec3 x = grid.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
+    std::array<int, 3> middle{}, low{}, high{};
+    bool in_grid = true;
+    for (int a = 0; a < 3; ++a) {
+      middle[a] = static_cast<int>(std::lround(x[a]));
+      low[a] = std::max(middle[a] - most, 0);
+      high[a] = std::min(middle[a] + most, grid.count()[a] - 1);
+      in_grid = in_grid && middle[a] >= 0 && middle[a] < grid.count()[a];
+    }
+    if (!in_grid) continue;
+    const std::size_t here = grid.cell(middle[0], middle[1], middle[2]);
+    if (!grid.inside(here) || done[here]) continue;
+    done[here] = true;
+    for (int i = low[0]; i <= high[0]; ++i)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int k = low[2]; k <= high[2]; ++k)
+          if ((Vec3(i, j, k) - x).squaredNorm() <= reach * reach) band[grid.cell(i, j, k)] = true;
+  }
+  return band;
 }
 
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
@@ -33,6 +62,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
                                               double target_edge) {
   if (sheets.corners.empty()) return {};
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
+  const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
   const std::vector<int> part = connected_parts(sheets);
   const ClosestPointTree walls(join({body, sheets}));
   const double cell_volume = std::pow(grid->size(), 3);
@@ -41,7 +71,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   for (int p = 0; p <= *std::max_element(part.begin(), part.end()); ++p) {
     for (std::size_t t = 0; t < crack.size(); ++t)
       crack[t] = part[sheets.corners[TriId(t)][0].index()] == p;
-    CellPartition partition = minimal_cut(*grid, crack);
+    CellPartition partition = minimal_cut(*grid, crack, band);
     const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
     const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
     if (std::min(upper, lower) < kFewestCells) continue;

@@ -17,9 +17,10 @@ struct LastLigament {
   double smaller_part = 0;  ///< volume of the smaller side [m³]
 };
 
-/// The ligaments of all connected cracks, those with the smallest half width first. A crack has none where its cut
-/// would leave less of it than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of
-/// `target_edge`, or more where the body would have more than kMostCells.
+/// The ligaments of all connected cracks, those with the smallest half width first. They lie within kLigamentBand
+/// of the cracks' fronts: a crack that has farther to go has none, nor has one whose cut would leave less of it
+/// than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of `target_edge`,
+/// or more where the body would have more than kMostCells.
 /// @param body    closed, outward
 /// @param sheets  all cracks, as fine as they are known; may stick out of the body
 std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
@@ -28,6 +29,29 @@ std::vector<int> faces_seen(const CellGrid& grid, const std::vector<bool>& crack
     if (i + 1 == crossings.size() || crossings[i + 1].edge != x.edge) seen[high] += x.upwards ? 1 : -1;
   }
   return seen;
+}
+
+// Vertices of the graph: a cell of the band, or all cells beyond it that hang together there.
+struct Vertices {
+  std::vector<std::int32_t> of_cell;  // −1 outside of the body
+  std::int32_t count = 0;
+};
+
+Vertices vertices_of(const CellGrid& grid, const std::vector<bool>& band) {
+  UnionFind together(grid.cells());
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    for (int axis = 0; axis < 3 && grid.inside(c) && !band[c]; ++axis)
+      if (const std::size_t d = grid.next(c, axis);
+          grid.inside(d) && !band[d] && grid.open(CellGrid::edge(c, axis)))
+        together.join(c, d);
+  Vertices out;
+  out.of_cell.assign(grid.cells(), -1);
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    if (grid.inside(c)) {
+      const std::size_t first = together.root(c);
+      out.of_cell[c] = first == c ? out.count++ : out.of_cell[first];
+    }
+  return out;
 }
 
 // Arcs out of each vertex, one after the other; each with its capacity and its opposite.
@@ -69,22 +93,27 @@ class NetworkBuilder {
 
 }  // namespace
 
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack) {
-  std::vector<std::int32_t> vertex(grid.cells(), -1);
-  std::int32_t count = 0;
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    if (grid.inside(c)) vertex[c] = count++;
-  const std::int32_t source = count, sink = count + 1;
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
+                          const std::vector<bool>& band) {
+  const Vertices vertices = vertices_of(grid, band);
+  const std::vector<std::int32_t>& vertex = vertices.of_cell;
+  const std::int32_t count = vertices.count, source = count, sink = count + 1;
   NetworkBuilder builder(static_cast<std::size_t>(count) + 2);
+  std::vector<int> surplus(static_cast<std::size_t>(count), 0);
   const std::vector<int> seen = faces_seen(grid, crack);
-  const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
   for (std::size_t c = 0; c < grid.cells(); ++c) {
     if (vertex[c] < 0) continue;
+    surplus[static_cast<std::size_t>(vertex[c])] += seen[c];
     for (int axis = 0; axis < 3; ++axis)
-      if (const std::size_t d = grid.next(c, axis); vertex[d] >= 0 && grid.open(CellGrid::edge(c, axis)))
+      if (const std::size_t d = grid.next(c, axis);
+          vertex[d] >= 0 && vertex[d] != vertex[c] && grid.open(CellGrid::edge(c, axis)))
         builder.connect(vertex[c], vertex[d], kFaceCost, kFaceCost);
-    if (seen[c] > 0) builder.connect(source, vertex[c], unused * seen[c], 0);
-    if (seen[c] < 0) builder.connect(vertex[c], sink, -unused * seen[c], 0);
+  }
+  const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
+  for (std::int32_t v = 0; v < count; ++v) {
+    const int faces = surplus[static_cast<std::size_t>(v)];
+    if (faces > 0) builder.connect(source, v, unused * faces, 0);
+    if (faces < 0) builder.connect(v, sink, -unused * faces, 0);
   }
   const Network network = builder.build();
   const Graph graph(boost::edges_are_sorted, network.arcs.begin(), network.arcs.end(), count + 2);

@@ -16,9 +16,12 @@ struct CellPartition {
 /// cut of the graph of cells, in which a face between neighbours costs its area where nothing stands between
 /// them and nothing where a crack does, and a face of the crack itself whose cell is on the wrong side costs
 /// `kUnusedFace` of its own. All on one side where that is cheaper: as long as what is left to break is not
-/// much smaller than the crack. Y. Boykov & V. Kolmogorov, An experimental comparison of min-cut/max-flow
+/// much smaller than the crack. New surface is made within the band only; cells beyond it that hang together
+/// there stay together. Y. Boykov & V. Kolmogorov, An experimental comparison of min-cut/max-flow
 /// algorithms (2004).
 /// @param crack  per triangle of the grid's sheets: whether it belongs to the crack
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack);
+/// @param band   per cell
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
+                          const std::vector<bool>& band);
 
 }  // namespace conchoid

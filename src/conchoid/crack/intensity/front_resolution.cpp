@@ -60,8 +60,13 @@ std::vector<FrontResolution> resolve_along_front(const std::vector<Vec3>& K,
   std::vector<Vec3> smooth = K;
   for (int pass = 0; pass < kIntensityPasses; ++pass)
     smooth = values.smoothed(smooth);
+  double largest = 0;
+  for (const Vec3& k : smooth)
+    largest = std::max(largest, size_of(k, m));
   std::vector<FrontResolution> out(K.size());
   for (std::size_t i = 0; i < K.size(); ++i) {
+    if (const double size = size_of(smooth[i], m); size < kTellingShare * largest)
+      out[i].turn = std::pow(size / (kTellingShare * largest), 2);
     out[i].intensity = smooth[i];
     out[i].step = 1 - (1 - kLeastUnresolvedStep) * std::clamp(values.change(smooth, i) - 1, 0.0, 1.0);
     out[i].pressed = smooth[i][0] < 0 && greatest_hoop_intensity(smooth[i], m) < toughness[i];

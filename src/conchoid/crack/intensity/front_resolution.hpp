@@ -12,6 +12,7 @@ namespace conchoid {
 struct FrontResolution {
   Vec3 intensity = Vec3::Zero();  ///< K smoothed as far as it is not resolved [Pa·√m]
   double step = 1;                ///< share of the law's step that it justifies, ≤ 1
+  double turn = 1;                ///< share of the law's angle that it justifies, ≤ 1
   bool pressed = false;           ///< closed by pressure, which sliding does not overcome
   /// Length it moves at most in a frame [m]. @param resolution  r̄ [m]
   double limit(double resolution) const {
@@ -31,6 +32,8 @@ double greatest_hoop_intensity(const Vec3& K, const ElasticConstants& m);
 ///   - K is smoothed by (¼, ½, ¼), two passes, in full from u_i = 1¼ on, not at all below ¾: a front on which
 ///     K is smooth keeps its bits;
 ///   - where u_i is still above 1 the step is shortened, to a quarter at u_i = 2 (K reversed);
+///   - the elements' error in K is a share of the largest K along the front, which for a K far below it tells no
+///     direction: the angle counts by min(1, |K_i| / (kTellingShare max_j |K_j|))²;
 ///   - a point under pressure, K_I < 0, is pressed unless sliding opens a kink against it: the greatest hoop
 ///     intensity of (K_I, √(K_II² + K_III²/(1−ν))) reaches K_c. A front of closed faces stays there.
 /// @param K          in the frame of each node, in the order of the front [Pa·√m]
