@@ -105,10 +105,10 @@ TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, HollowBodies,
-    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 1},
-                    Hollow{"ThinnerTube", shapes::tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16, 2},
-                    Hollow{"ThickTube", shapes::tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22, 1},
-                    Hollow{"Cup", shapes::cup(), {1, 0, 0.31}, 1, 0.2, 1}),
+    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 0.25},
+                    Hollow{"ThinnerTube", shapes::tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16, 1.2},
+                    Hollow{"ThickTube", shapes::tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22, 0.2},
+                    Hollow{"Cup", shapes::cup(), {1, 0, 0.31}, 1, 0.2, 0.5}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

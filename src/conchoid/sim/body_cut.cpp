@@ -2,15 +2,21 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "conchoid/core/error.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
+#include "conchoid/surface/open_slits.hpp"
 
 namespace conchoid {
 namespace {
 
 // Tried in turn.
-constexpr std::array<LigamentOverlap, 4> kOverlaps{{{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}}};
+constexpr std::array<LigamentOverlap, 8> kOverlaps{
+    {{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}, {4.2, 0.35}, {4.2, -0.35}, {2.8, 0.15}, {2.8, -0.15}}};
+
+constexpr double kSlitWidth = 2e-4;  // × the crack surface's edge length
 
 FragmentSettings fragment_settings(const PreparedBody& body, const RunSpec& run) {
   return {body.material.density, run.smallest_fragment, static_cast<std::size_t>(run.max_fragments)};
@@ -44,7 +50,15 @@ std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const Tr
   }
 }
 
+bool open_cleanly(const std::vector<Fragment>& fragments, double width) {
+  return std::all_of(fragments.begin(), fragments.end(), [&](Fragment f) { return open_slits(f, width); });
+}
+
 }  // namespace
+
+double slit_width(const PreparedBody& body) {
+  return kSlitWidth * body.surface_edge;
+}
 
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets) {
   BodyCut cut;
@@ -71,15 +85,24 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
   const TriMesh all = join(cut.sheets);
   for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge)) {
     if (!breaks(ligament)) continue;
+    std::vector<Fragment> best;
+    TriMesh best_surface;
     for (const LigamentOverlap& overlap : kOverlaps) {
-      const TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
+      TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
       std::vector<Fragment> parts =
           parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
       if (parts.size() < 2) continue;
-      cut.ligament = parting_faces(parts, surface, all.triangle_count());
-      cut.fragments = std::move(parts);
-      return;
+      const bool clean = open_cleanly(parts, slit_width(body));
+      if (clean || best.empty()) {
+        best = std::move(parts);
+        best_surface = std::move(surface);
+      }
+      if (clean) break;
     }
+    if (best.empty()) continue;
+    cut.ligament = parting_faces(best, best_surface, all.triangle_count());
+    cut.fragments = std::move(best);
+    return;
   }
 }
 

@@ -19,12 +19,17 @@ struct BodyCut {
   bool parted() const { return fragments.size() > 1; }
 };
 
+/// Width to which the faces of cracks that end in a piece are drawn apart [m]: far below what can be seen, far above
+/// what single precision rounds away.
+double slit_width(const PreparedBody& body);
+
 /// Cuts the body by the sheets as they are. Where they are folded beyond repair the body is left whole, with a
 /// warning. Pieces are as small and as many as the run's settings allow.
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets);
 
 /// Goes on with a cut that leaves one piece: along the first of what is left to break (find_last_ligaments(), for the
-/// detailed body and these sheets) that `breaks` and parts the body.
+/// detailed body and these sheets) that `breaks` and parts the body; of the ways to lay its surface over the cracks,
+/// one whose pieces do not cross themselves once their slits are open, if there is one.
 void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
                   const std::function<bool(const LastLigament&)>& breaks);
 

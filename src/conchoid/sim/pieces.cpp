@@ -8,6 +8,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
+#include "conchoid/sim/body_cut.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
 #include "conchoid/surface/fragment_attributes.hpp"
 #include "conchoid/surface/move_fragment.hpp"
@@ -16,9 +17,6 @@
 
 namespace conchoid {
 namespace {
-
-// Far below what can be seen, far above what single precision rounds away.
-constexpr double kSlitWidth = 2e-4;  // of the crack surface's edge length
 
 // Of the sheet; nodes that no triangle uses are dropped.
 TriMesh part_inside(const CutComplex& cut) {
@@ -83,7 +81,8 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
     out.crack = crack_surface(fracture);
     return out;
   }
-  BodyCut cut = fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
+  BodyCut cut =
+      fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
   out.crack = join({trimmed_crack(body, cut.sheets), cut.ligament});
@@ -91,7 +90,7 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
   for (Fragment& f : out.fragments) {
     keep_solid(f);
     f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
-    open_slits(f, kSlitWidth * body.surface_edge);
+    open_slits(f, slit_width(body));
   }
   transfer_attributes(out.fragments, body.detailed, body.attributes, attribute_settings(output, body));
   for (Fragment& f : out.fragments)

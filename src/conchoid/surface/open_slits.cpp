@@ -83,7 +83,7 @@ IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places) {
 
 }  // namespace
 
-void open_slits(Fragment& f, double width) {
+bool open_slits(Fragment& f, double width) {
   const SharedPlaces places(f.mesh);
   const IdVector<NodeId, Vec3> way = ways(f, places);
   const IdVector<NodeId, Vec3> closed = f.mesh.positions;
@@ -93,7 +93,7 @@ void open_slits(Fragment& f, double width) {
       if (const NodeId n(i); !way[n].isZero(0))
         f.mesh.positions[n] = closed[n] + 0.5 * width * share[places.first[n]] * way[n];
   };
-  if (std::all_of(way.begin(), way.end(), [](const Vec3& w) { return w.isZero(0); })) return;
+  if (std::all_of(way.begin(), way.end(), [](const Vec3& w) { return w.isZero(0); })) return true;
   move();
   constexpr std::size_t most_pairs = 10000;
   constexpr int rounds = 5;
@@ -105,11 +105,12 @@ void open_slits(Fragment& f, double width) {
       for (const TriId face : {s, t})
         for (const NodeId n : f.mesh.corners[face])
           if (!way[n].isZero(0)) reached[places.first[n]] = any = true;
-    if (!any) return;
+    if (!any) return crossing.empty();
     for (std::size_t n = 0; n < reached.size(); ++n)
       if (reached[NodeId(n)]) share[NodeId(n)] = round == rounds ? 0 : 0.3 * share[NodeId(n)];
     move();
   }
+  return self_intersections(f.mesh, 1).empty();
 }
 
 }  // namespace conchoid
