@@ -13,6 +13,7 @@
 #include "conchoid/intersect/retriangulate.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/corners.hpp"
+#include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
 namespace {
@@ -46,13 +47,28 @@ class Corefinement {
             perturbed_points(sheet, Role::sheet, static_cast<std::uint32_t>(surface.node_count()))) {}
 
   CutComplex run() {
-    find_segments();
-    make_nodes();
-    join_crossings(Key::surface_edge);
-    join_crossings(Key::sheet_edge);
-    cut_surface();
-    cut_sheet();
+    cut_both();
     return keep_inside();
+  }
+  SplitSurfaces split() {
+    cut_both();
+    std::vector<MouthSide> mouth = mouth_sides();
+    const std::vector<bool> sheet_inside =
+        inside_pieces(sheet_pieces_, mouth, [&](NodeId n) { return ray_says_inside(n); });
+    // What lies to the left on the sheet lies to the right on the surface (theirs is the same curve).
+    for (MouthSide& side : mouth)
+      side.second = !side.second;
+    const std::vector<Corners> surface_pieces(result_.surface.begin(), result_.surface.end());
+    const std::vector<bool> surface_inside = inside_pieces(surface_pieces, std::move(mouth), [&](NodeId n) {
+      return winding_number(sheet_, positions_[n]) > 0.5;
+    });
+    SplitSurfaces out;
+    for (std::size_t p = 0; p < surface_pieces.size(); ++p)
+      out.first.push_back({surface_pieces[p], surface_inside[p]});
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      out.second.push_back({sheet_pieces_[p], sheet_inside[p]});
+    out.positions = std::move(positions_);
+    return out;
   }
   /// Per node of the complex that run() returned.
   IdVector<NodeId, SurfaceSupport> supports() const { return supports_; }
@@ -75,6 +91,15 @@ class Corefinement {
   static bool pierces(const PerturbedPoint& p, const PerturbedPoint& q, const Points& t) {
     const int s = orientation(p, q, *t[0], *t[1]);
     return s == orientation(p, q, *t[1], *t[2]) && s == orientation(p, q, *t[2], *t[0]);
+  }
+
+  void cut_both() {
+    find_segments();
+    make_nodes();
+    join_crossings(Key::surface_edge);
+    join_crossings(Key::sheet_edge);
+    cut_surface();
+    cut_sheet();
   }
 
   void find_segments() {
@@ -445,6 +470,10 @@ CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const Corefine
   CutComplex cut = corefinement.run();
   if (settings.merge > 0) merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge);
   return cut;
+}
+
+SplitSurfaces split_by_each_other(const TriMesh& first, const TriMesh& second) {
+  return Corefinement(first, second).split();
 }
 
 }  // namespace conchoid

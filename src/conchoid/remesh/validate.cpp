@@ -9,11 +9,10 @@
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/winding_number.hpp"
+#include "conchoid/remesh/flat_triangles.hpp"
 
 namespace conchoid {
 namespace {
-
-constexpr double flattest_triangle = 1e-10;  // height over longest edge
 
 /// "triangle 4" …, for messages.
 template <class IdType>
@@ -241,7 +240,7 @@ std::vector<MeshDefect> defects_of(const TriMesh& mesh, bool is_body, std::size_
   if (!defects.none()) return defects.take();
   check_duplicates(mesh, defects);
   check_edges(mesh, !is_body, defects);
-  if (defects.none()) check_nodes(mesh, defects);
+  check_nodes(mesh, defects);
   check_shapes(mesh, defects);
   if (!defects.none()) return defects.take();
   check_intersections(mesh, defects);

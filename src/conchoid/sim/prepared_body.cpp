@@ -59,8 +59,10 @@ void require_one_body(const Scene& scene, const TriMesh& surface) {
   }
   const auto bodies = std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; });
   if (bodies != 1)
-    throw InputError(fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time",
-                                 scene.body.where, bodies));
+    throw InputError(
+        fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time: conchoid "
+                    "check FILE --split DIR writes them apart",
+                    scene.body.where, bodies));
 }
 
 }  // namespace
