@@ -317,7 +317,7 @@ std::string unusable_text(const CheckCommand& command, const SurfaceReport& repo
 
 void check_and_print(const CheckCommand& command, const CommonOptions& common) {
   WeldReport weld;
-  const AttributedMesh surface = welded_if_it_helps(read_surface(command.file), command.file, weld);
+  const AttributedMesh surface = welded_if_it_helps(read_surface(command.file), weld);
   const TriMesh& mesh = surface.mesh;
   const SurfaceReport report = examine(mesh);
   Json json = report_json(command, report);

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine_merge.hpp"
 #include "conchoid/intersect/inside_pieces.hpp"
 #include "conchoid/intersect/predicates.hpp"
@@ -94,17 +96,26 @@ class Corefinement {
   }
 
   void cut_both() {
-    find_segments();
-    make_nodes();
-    join_crossings(Key::surface_edge);
-    join_crossings(Key::sheet_edge);
-    cut_surface();
-    cut_sheet();
+    Progress progress("steps of a cut", 5);
+    const auto step = [&](auto&& work) {
+      work();
+      progress.advance();
+    };
+    step([&] { find_segments(); });
+    step([&] { make_nodes(); });
+    step([&] {
+      join_crossings(Key::surface_edge);
+      join_crossings(Key::sheet_edge);
+    });
+    step([&] { cut_surface(); });
+    step([&] { cut_sheet(); });
   }
 
   void find_segments() {
-    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_))
+    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_)) {
+      throw_if_interrupted();
       intersect(t, s);
+    }
   }
 
   void intersect(TriId t, TriId s) {
@@ -268,6 +279,7 @@ class Corefinement {
     for (std::size_t i = 0; i < segments_.size(); ++i)
       lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
     for (std::size_t t = 0; t < lists.size(); ++t) {
+      throw_if_interrupted();
       const std::vector<std::size_t>& own = lists[TriId(t)];
       if (own.size() < 2) continue;
       for (const CrossingSegments& c : crossing_segments(positions_, triangle_cut(kind, TriId(t)))) {
@@ -327,6 +339,7 @@ class Corefinement {
 
   void cut_surface() {
     for (std::size_t i = 0; i < surface_.triangle_count(); ++i) {
+      throw_if_interrupted();
       const TriId t(i);
       if (on_surface_[t].empty()) {
         result_.surface.push_back(surface_.corners[t]);
@@ -342,6 +355,7 @@ class Corefinement {
 
   void cut_sheet() {
     for (std::size_t i = 0; i < sheet_.triangle_count(); ++i) {
+      throw_if_interrupted();
       const TriId s(i);
       if (on_sheet_[s].empty()) {
         Corners c = sheet_.corners[s];

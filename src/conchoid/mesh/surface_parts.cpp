@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
@@ -54,7 +55,7 @@ void find_depths(const TriMesh& mesh, std::vector<SurfacePart>& parts) {
     boxes.push_back(bounding_box(meshes.back()));
   }
   for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t q = 0; q < parts.size(); ++q)
+    for (std::size_t q = 0; q < parts.size(); ++q, throw_if_interrupted())
       if (p != q && contains(boxes[q], boxes[p]) && lies_within(meshes[p], meshes[q])) ++parts[p].depth;
 }
 

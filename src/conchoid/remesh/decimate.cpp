@@ -78,7 +78,6 @@ std::vector<Plane> nearest_planes(const EditableMesh& mesh, const TriMesh& shape
   const ClosestPointTree tree(shape);
   std::vector<Plane> planes(mesh.triangle_slots());
   parallel_for(planes.size(), 256, [&](std::size_t begin, std::size_t end) {
-    throw_if_interrupted();
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle x = mesh.triangle(TriId(t));
       const TriId nearest = tree.closest((x[0] + x[1] + x[2]) / 3).triangle;
@@ -108,16 +107,16 @@ class Decimation {
       for (NodeId corner : mesh.corners(TriId(t)))
         quadrics_[corner].add_plane(planes[t].normal, planes[t].offset, area2 / 6);
     }
-    for (const Edge& e : mesh.edges())
+    for (const Edge& e : mesh.edges()) {
+      throw_if_interrupted();
       propose(e);
+    }
   }
 
   void run(std::size_t target) {
-    std::size_t steps = 0;
-    Progress progress("triangles to go", mesh_.triangle_count());
+    Progress progress("triangles decimated, at most", mesh_.triangle_count() - target);
     while (mesh_.triangle_count() > target && !queue_.empty()) {
-      constexpr std::size_t listens_every = 256;
-      if (++steps % listens_every == 0) throw_if_interrupted();
+      throw_if_interrupted();
       const Candidate best = queue_.top();
       queue_.pop();
       if (versions_[best.edge.a] + versions_[best.edge.b] != best.version || !mesh_.alive(best.edge.a) ||

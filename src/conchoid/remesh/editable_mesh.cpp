@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/box.hpp"
 
@@ -162,6 +163,7 @@ bool EditableMesh::move(NodeId n, const Vec3& to) {
 }
 
 bool EditableMesh::apply(const Change& change) {
+  throw_if_interrupted();
   if (!acceptable(change)) return false;
   for (TriId t : change.removed)
     remove(t);

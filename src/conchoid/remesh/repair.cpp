@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/numbers.hpp"
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/remesh/decimate.hpp"
@@ -28,7 +28,6 @@ double farthest_node(const TriMesh& from, const TriMesh& to) {
   const ClosestPointTree tree(to);
   std::vector<double> squared(from.node_count());
   parallel_for(from.node_count(), 256, [&](std::size_t begin, std::size_t end) {
-    throw_if_interrupted();
     for (std::size_t n = begin; n < end; ++n)
       squared[n] = tree.closest(from.positions[NodeId(n)]).squared_distance;
   });
@@ -72,21 +71,26 @@ void repair_by_level_set(const TriMesh& tidy, double voxel, Repair& repair) {
   const std::vector<BoundaryLoop> loops = boundary_loops(tidy);
   const TriMesh closed = holes_filled(tidy, loops);
   require_lattice_that_fits(bounding_box(closed), voxel);
+  Progress progress("steps of the level set", 4);
   const InsideLattice lattice = inside_lattice(closed, voxel);
+  progress.advance();
   repair.method = RepairMethod::level_set;
   repair.voxel = voxel;
   repair.lattice = lattice.size;
   repair.filled_holes = loops.size();
   repair.mesh = lattice_boundary(lattice, closed);
+  progress.advance();
   repair.dropped_specks = drop_specks(repair.mesh, voxel);
   repair.lattice_triangles = repair.mesh.triangle_count();
   if (repair.mesh.corners.empty())
     throw ComputationError("the surface bounds no volume that a voxel of " + shortest(voxel) +
                            " m could see; use a smaller voxel, or give the surface a thickness");
   repair.mesh = simplified(repair.mesh, closed, voxel);
+  progress.advance();
   repair.volume_before = enclosed_volume(closed);
   repair.moved = farthest_node(repair.mesh, closed);
   repair.lost = farthest_node(tidy, repair.mesh);
+  progress.advance();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
@@ -225,7 +226,7 @@ void check_orientation(const TriMesh& mesh, Defects& defects) {
       continue;
     }
     int depth = 0;
-    for (std::size_t q = 0; q < parts.size(); ++q)
+    for (std::size_t q = 0; q < parts.size(); ++q, throw_if_interrupted())
       if (q != p && std::abs(winding_number(parts[q], parts[p].positions.front())) > 0.5) ++depth;
     if ((volume > 0) != (depth % 2 == 0))
       defects.add(DefectKind::inside_out,

@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "conchoid/core/cells.hpp"
-#include "conchoid/core/log.hpp"
 #include "conchoid/core/numbers.hpp"
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/mesh/carry_attributes.hpp"
@@ -96,7 +95,13 @@ TriMesh welded(const TriMesh& mesh, WeldReport& report, std::vector<TriId>* kept
   return out;
 }
 
-AttributedMesh welded_if_it_helps(AttributedMesh surface, const std::string& name, WeldReport& report) {
+std::string WeldReport::text() const {
+  return std::to_string(nodes) + " nodes were welded to others at most " + shortest(farthest) +
+         " away, less than " + shortest(weld_share) + " of the edges there; " + std::to_string(triangles) +
+         " triangles between them are gone";
+}
+
+AttributedMesh welded_if_it_helps(AttributedMesh surface, WeldReport& report) {
   report = {};
   const std::vector<MeshDefect> defects = find_defects(surface.mesh, 1);
   if (defects.empty() || std::any_of(defects.begin(), defects.end(), [](const MeshDefect& d) {
@@ -111,9 +116,6 @@ AttributedMesh welded_if_it_helps(AttributedMesh surface, const std::string& nam
   drop_unused_nodes(mesh);
   if (!find_defects(mesh, 1).empty()) return surface;
   report = weld;
-  warning(name + ": " + std::to_string(weld.nodes) + " nodes were welded to others at most " +
-          shortest(weld.farthest) + " m away, less than " + shortest(weld_share) + " of the edges there; " +
-          std::to_string(weld.triangles) + " triangles between them are gone");
   return {std::move(mesh), attributes_of(surface.attributes, kept)};
 }
 

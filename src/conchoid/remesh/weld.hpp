@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "conchoid/mesh/surface_attributes.hpp"
 
@@ -13,6 +14,9 @@ struct WeldReport {
   std::size_t nodes = 0;      ///< that became another one
   std::size_t triangles = 0;  ///< dropped, because two of their nodes became one
   double farthest = 0;        ///< largest distance of a node from the one it became [m]
+
+  /// "8 nodes were welded to others at most 2e-7 away, …"
+  std::string text() const;
 };
 
 /// The surface with loose seams closed: nodes within `share` become the one of lowest id if they are joined by
@@ -23,8 +27,8 @@ TriMesh welded(const TriMesh& mesh, WeldReport& report, std::vector<TriId>* kept
                double share = weld_share);
 
 /// A surface as a scene takes it from a file: as it is if it bounds a body; welded, without the nodes that are
-/// left over, if that alone makes it bound one (and said so in a warning); as it is, bad, otherwise.
-/// @param name  for the warning
-AttributedMesh welded_if_it_helps(AttributedMesh surface, const std::string& name, WeldReport& report);
+/// left over, if that alone makes it bound one, which the caller should say; as it is, bad, otherwise.
+/// @param report  all zero unless it was welded
+AttributedMesh welded_if_it_helps(AttributedMesh surface, WeldReport& report);
 
 }  // namespace conchoid

@@ -1,10 +1,13 @@
 #include "conchoid/sim/body.hpp"
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/models.hpp"
+#include "conchoid/remesh/examine.hpp"
 #include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/remesh/weld.hpp"
@@ -46,7 +49,7 @@ Body with_elements(Body body, TriMesh surface) {
 
 Body body_from_file(const std::filesystem::path& path, const BodySettings& settings) {
   WeldReport weld;
-  AttributedMesh read = welded_if_it_helps(read_surface(path), path.string(), weld);
+  AttributedMesh read = welded_if_it_helps(read_surface(path), weld);
   try {
     require_valid_body(read.mesh, path.string());
   } catch (const InputError& error) {
@@ -55,6 +58,16 @@ Body body_from_file(const std::filesystem::path& path, const BodySettings& setti
   }
   Body body;
   body.name = path.string();
+  const auto warn = [&](const std::string& text) {
+    body.warnings.push_back(path.string() + ": " + text);
+    warning(body.warnings.back());
+  };
+  if (weld.nodes > 0) warn(weld.text());
+  const Box box = bounding_box(read.mesh);
+  const UnitGuess unit = guess_unit((box.high - box.low).maxCoeff());
+  if (settings.guess_unit && unit.scale != 1)
+    warn(unit.why + "; set body.scale = " + shortest(unit.scale) +
+         ", or body.scale = 1.0 if they are metres");
   body.detailed = std::move(read.mesh);
   body.attributes = std::move(read.attributes);
   return with_settings(std::move(body), settings);

@@ -58,6 +58,13 @@ TriMesh crack_surface(const Fracture& fracture) {
   return crack;
 }
 
+TriMesh swept_crack(const Fracture& fracture) {
+  TriMesh crack = join(fracture.visible_sheets());
+  for (Vec3& x : crack.positions)
+    x += fracture.body().origin;
+  return crack;
+}
+
 void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& output) {
   const double volume = enclosed_volume(body.detailed);
   const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / volume); };
@@ -83,7 +90,8 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
     out.crack = crack_surface(fracture);
     return out;
   }
-  BodyCut cut = fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
+  BodyCut cut =
+      fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
   out.crack = join({trimmed_crack(body, cut.sheets), cut.ligament});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
@@ -70,6 +71,7 @@ class NetworkBuilder {
 }  // namespace
 
 CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack) {
+  throw_if_interrupted();
   std::vector<std::int32_t> vertex(grid.cells(), -1);
   std::int32_t count = 0;
   for (std::size_t c = 0; c < grid.cells(); ++c)
