@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/log.hpp"
 
 namespace conchoid {
@@ -23,6 +24,7 @@ std::string quoted(std::string_view word) {
 }  // namespace
 
 void TextScanner::take_line() {
+  throw_if_interrupted();
   const std::size_t end = text_.find('\n');
   current_ = text_.substr(0, end);
   text_ = end == std::string_view::npos ? std::string_view() : text_.substr(end + 1);

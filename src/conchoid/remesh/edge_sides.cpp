@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
+
 namespace conchoid {
 
 std::vector<EdgeSide> sides_by_edge(const TriMesh& mesh) {
@@ -15,8 +17,10 @@ std::vector<EdgeSide> sides_by_edge(const TriMesh& mesh) {
       const NodeId p = mesh.corners[TriId(t)][k], q = mesh.corners[TriId(t)][(k + 1) % 3];
       sides.push_back({Edge(p, q), TriId(t), p < q});
     }
-  std::stable_sort(sides.begin(), sides.end(),
-                   [](const EdgeSide& a, const EdgeSide& b) { return a.edge < b.edge; });
+  std::stable_sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
+    throw_if_interrupted();
+    return a.edge < b.edge;
+  });
   return sides;
 }
 

@@ -37,8 +37,10 @@ double smallest_angle(const Triangle& x) {
 EditableMesh::EditableMesh(const TriMesh& mesh, double cell)
     : positions_(mesh.positions), stars_(mesh.node_count()), cell_(cell), origin_(bounding_box(mesh).low) {
   corners_.reserve(mesh.triangle_count());
-  for (const auto& c : mesh.corners)
+  for (const auto& c : mesh.corners) {
+    throw_if_interrupted();
     add(c);
+  }
 }
 
 Triangle EditableMesh::triangle(TriId t) const {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/mesh/place.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
@@ -126,6 +127,7 @@ void orient_neighbours_alike(TriMesh& mesh) {
   const auto neighbours = links(mesh);
   IdVector<TriId, char> seen(mesh.triangle_count()), turned(mesh.triangle_count());
   for (std::size_t first = 0; first < mesh.triangle_count(); ++first) {
+    throw_if_interrupted();
     if (seen[TriId(first)]) continue;
     std::vector<TriId> patch = {TriId(first)};
     seen[TriId(first)] = 1;

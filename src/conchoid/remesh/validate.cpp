@@ -100,7 +100,10 @@ std::vector<Side> sorted_sides(const TriMesh& mesh) {
       const auto& c = mesh.corners[TriId(t)];
       sides.push_back({Edge(c[k], c[(k + 1) % 3]), c[k], TriId(t)});
     }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) { return x.edge < y.edge; });
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    throw_if_interrupted();
+    return x.edge < y.edge;
+  });
   return sides;
 }
 
@@ -143,6 +146,7 @@ IdVector<NodeId, std::vector<TriId>> stars(const TriMesh& mesh) {
 void check_nodes(const TriMesh& mesh, Defects& defects) {
   const auto star = stars(mesh);
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    throw_if_interrupted();
     const auto& triangles = star[NodeId(n)];
     if (triangles.empty()) {
       defects.add(DefectKind::unused_node, "node " + std::to_string(n) + " belongs to no triangle",
