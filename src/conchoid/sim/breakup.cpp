@@ -240,7 +240,7 @@ void Breakup::State::end_without_chips(StopReason reason) {
 
 void Breakup::State::end_first(StopReason reason) {
   outcome = reason;
-  if (body->infinite()) return;
+  if (body->infinite() || reason == StopReason::interrupted) return;  // then there is no time to cut it
   Pieces cut = cut_into_pieces(*fracture, output);
   const std::size_t count = cut.fragments.size();
   const bool goes_on = run.after_separation == AfterSeparation::go_on;
@@ -261,7 +261,7 @@ void Breakup::State::end_first(StopReason reason) {
 }
 
 void Breakup::State::end_piece() {
-  if (!grown()) return;
+  if (!grown() || interrupted()) return;
   Pieces cut = cut_into_pieces(*fracture, output);
   if (!are_solids(cut.fragments)) {
     warnings.push_back(

@@ -59,7 +59,7 @@ TriMesh crack_surface(const Fracture& fracture) {
 }
 
 TriMesh swept_crack(const Fracture& fracture) {
-  TriMesh crack = join(fracture.visible_sheets());
+  TriMesh crack = fracture.swept_surface();
   for (Vec3& x : crack.positions)
     x += fracture.body().origin;
   return crack;
