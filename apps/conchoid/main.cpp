@@ -44,7 +44,9 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", CONCHOID_VERSION);
   program.footer(
       "Exit status: 0 done, 1 the computation failed, 2 bad usage or bad input.\n"
-      "conchoid COMMAND --help tells more; conchoid help-scene lists the keys of a scene.");
+      "conchoid COMMAND --help tells more; conchoid help-scene lists the keys of a scene, conchoid materials "
+      "the "
+      "materials it can name.");
   program.get_formatter()->column_width(34);
   Invocation invocation;
   allow_one_command(program);
@@ -59,6 +61,7 @@ int run_program(int argc, char** argv) {
   add_forest(program, invocation);
   add_materials(program, invocation);
   add_help_scene(program, invocation);
+  add_help(program, invocation);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -16,7 +16,7 @@ namespace {
 
 struct PictureCommand {
   std::vector<std::string> runs;
-  std::string out, show = "pieces", up = "z";
+  std::string out, show = "pieces", up = "auto";
   std::vector<double> from;
   int sheet = 0;  ///< frames on a contact sheet; 0: one panel per run
   bool plain = false;
@@ -24,7 +24,8 @@ struct PictureCommand {
   PictureSettings settings;
 };
 
-Vec3 up_direction(const std::string& name) {
+Vec3 up_direction(const std::string& name, const std::string& folder) {
+  if (name == "auto") return usual_up(read_run_json(std::filesystem::path(folder) / "run.json"));
   const double sign = name.front() == '-' ? -1 : 1;
   return sign * Vec3::Unit(name.back() - 'x');
 }
@@ -64,7 +65,7 @@ void draw_and_print(PictureCommand command, const CommonOptions& common) {
   if (command.sheet > 0 && command.runs.size() > 1)
     throw InputError("--sheet shows the frames of one run; name one folder");
   command.run.view = run_view_from_name(command.show);
-  command.settings.up = up_direction(command.up);
+  command.settings.up = up_direction(command.up, command.runs.front());
   command.settings.from = command.from.empty() ? usual_view(command.settings.up)
                                                : Vec3(command.from[0], command.from[1], command.from[2]);
   if (command.settings.from.isZero(0))
@@ -109,8 +110,11 @@ void add_picture(CLI::App& program, Invocation& invocation) {
                    "the crack's faces are drawn apart by so many times the opening")
       ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
-  command->add_option("--up", options->up, "axis that points up: x, y, z, -x, -y, -z")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+  command
+      ->add_option("--up", options->up,
+                   "axis that points up: x, y, z, -x, -y, -z; auto: y where the body is clearly tallest "
+                   "along it, else z")
+      ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
       ->capture_default_str();
   command
       ->add_option("--from", options->from,

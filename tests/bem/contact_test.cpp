@@ -8,6 +8,7 @@
 
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "stops.hpp"
 
 namespace conchoid {
 namespace {
@@ -171,6 +172,13 @@ TEST(CrackedBody, EnergyOfAPennyCrack) {
   const double exact = 8 * (1 - glassy.poisson_ratio * glassy.poisson_ratio) * sigma * sigma * a * a * a /
                        (3 * glassy.youngs_modulus);
   EXPECT_NEAR(body.energy() / exact, 1, 0.05);
+}
+
+TEST(Contact, HearsRequestsToStop) {
+  test::expect_stop("contact", [] {
+    std::vector<double> x;
+    Row().close(x, 100);
+  });
 }
 
 }  // namespace conchoid

@@ -277,7 +277,10 @@ const std::vector<BadInput> kBadInputs = {
      {"body.off"}},
     {"mesh_degenerate",
      mesh_scene(changed(
-         [](TriMesh& m) { m.positions[m.corners[TriId(0)][0]] = m.positions[m.corners[TriId(0)][1]]; })),
+         [](TriMesh& m) {
+           const auto [a, b, c] = m.corners[TriId(0)];
+           m.positions[a] = 0.5 * (m.positions[b] + m.positions[c]);
+         })),
      kMesh,
      {"body.off", "triangle"}},
     {"mesh_self_intersection",

@@ -9,6 +9,7 @@
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/remesh/validate.hpp"
+#include "mesh/mesh_checks.hpp"
 
 using namespace conchoid;
 using namespace conchoid::test;
@@ -47,7 +48,8 @@ TEST(Check, AHoleIsReportedWithStatus1) {
   write_mesh(folder / "cube.ply", cube_with_hole());
   const Outcome outcome = run_program({"check", "cube.ply"}, folder.path());
   EXPECT_EQ(outcome.status, 1);
-  expect_parts(outcome.out, {"holes: 1", "3 edges", "3 open edges", "level set", "close the holes"});
+  expect_parts(outcome.out,
+               {"holes: 1", "3 edges", "3 open edges", "mend it where it is bad", "close the holes"});
   expect_parts(outcome.err, {"cube.ply", "--repair"});
   EXPECT_EQ(files_below(folder.path()).size(), 1u);
 
@@ -57,8 +59,7 @@ TEST(Check, AHoleIsReportedWithStatus1) {
   EXPECT_FALSE(report["usable"].get<bool>());
   EXPECT_EQ(report["holes"][0]["edges"], 3);
   EXPECT_EQ(report["defects"]["open edges"], 3);
-  EXPECT_EQ(report["repair"]["method"], "level-set");
-  EXPECT_EQ(report["repair"]["voxel"], 0.005);
+  EXPECT_EQ(report["repair"]["method"], "mending");
   EXPECT_TRUE(report["parts"][0]["volume"].is_null());
 }
 
@@ -76,6 +77,67 @@ TEST(Check, TheRepairedFilePassesTheCheck) {
     EXPECT_LT(repair["moved"].get<double>(), 0.05);
     EXPECT_EQ(run_program({"check", out}, folder.path()).status, 0) << out;
   }
+}
+
+TEST(Check, WhatIsBadIsMendedWhereItIs) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "cube.ply", cube_with_hole());
+  const Outcome outcome = run_program({"check", "cube.ply", "--repair", "--out", "fixed.ply"}, folder.path());
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_parts(outcome.out, {"mended where it was bad: 1 holes closed", "48 triangles"});
+  EXPECT_EQ(run_program({"check", "fixed.ply"}, folder.path()).status, 0);
+}
+
+TEST(Check, LooseSeamsAreWeldedAndSaidSo) {
+  const TemporaryFolder folder;
+  const TriMesh good = cube();
+  TriMesh loose;
+  for (std::size_t t = 0; t < good.triangle_count(); ++t) {
+    std::array<NodeId, 3> own;
+    for (std::size_t k = 0; k < 3; ++k)
+      own[k] =
+          loose.positions.add(good.triangle(TriId(t))[k] +
+                              2e-7 * Vec3(static_cast<double>(t % 3), static_cast<double>(t % 5) / 5, 0));
+    loose.corners.push_back(own);
+  }
+  write_mesh(folder / "loose.ply", loose);
+  const Outcome check = run_program({"check", "loose.ply"}, folder.path());
+  EXPECT_EQ(check.status, 0) << check.err;
+  expect_parts(check.out, {"nodes welded", "0.0001 of the edges", "can use it as it is"});
+  folder.write("scene.toml",
+               "[body]\nmesh = \"loose.ply\"\n[material]\nyoungs_modulus = 3e9\npoisson_ratio = 0.3\n");
+  const Outcome mesh = run_program({"mesh", "scene.toml", "--out", "m.ply", "--json"}, folder.path());
+  EXPECT_EQ(mesh.status, 0) << "a scene thinks the same of it: " << mesh.err;
+  expect_parts(mesh.err, {"welded"});
+  EXPECT_EQ(json::parse(mesh.out)["nodes"], 26);
+}
+
+TEST(Check, SeveralBodiesAreRefusedAndWrittenApart) {
+  const TemporaryFolder folder;
+  TriMesh hollow = icosphere(1, 2);
+  append(hollow, flipped(icosphere(0.5, 1)));
+  TriMesh mesh = hollow;
+  append(mesh, cube(), Vec3(3, 0, 0));
+  write_mesh(folder / "two.obj", mesh);
+  folder.write("scene.toml",
+               "[body]\nmesh = \"two.obj\"\n[material]\nyoungs_modulus = 3e9\n"
+               "poisson_ratio = 0.3\n[[boundary]]\nregion = \"a\"\nfixed = true\n"
+               "[[region]]\nname = \"a\"\nhalf_spaces = [[0, 0, -1, 0.2]]\n");
+  const Outcome check = run_program({"check", "two.obj"}, folder.path());
+  EXPECT_EQ(check.status, 1) << "as a run refuses it, too";
+  expect_parts(check.out, {"2 separate bodies"});
+  expect_parts(check.err, {"--split"});
+  const Outcome run = run_program({"run", "scene.toml"}, folder.path());
+  EXPECT_EQ(run.status, 2);
+  expect_parts(run.err, {"2 separate bodies", "--split"});
+
+  const Outcome split = run_program({"check", "two.obj", "--split", "parts", "--json"}, folder.path());
+  EXPECT_EQ(split.status, 0) << split.err;
+  ASSERT_EQ(json::parse(split.out)["split"].size(), 2u);
+  EXPECT_EQ(read_mesh(folder / "parts/two_0.obj").triangle_count(), hollow.triangle_count())
+      << "the cavity stays with its body";
+  EXPECT_NEAR(enclosed_volume(read_mesh(folder / "parts/two_1.obj")), 1, 1e-12);
+  EXPECT_EQ(run_program({"check", "parts/two_0.obj"}, folder.path()).status, 0);
 }
 
 TEST(Check, WhatIsGoodOrOnlyUntidyIsNotMoved) {

@@ -111,7 +111,7 @@ TEST_F(MeshFiles, HandWrittenFilesOfEveryFlavourAreTheSameTetrahedron) {
   expect_tetrahedron(read_mesh(folder_.write("a.stl", stl + "endsolid tetrahedron\n")));
 }
 
-TEST_F(MeshFiles, PolygonsBecomeFans) {
+TEST_F(MeshFiles, ConvexPolygonsBecomeFans) {
   const TriMesh cube = read_mesh(
       folder_.write("cube.off",
                     "OFF # a cube of quads\n8 6 12\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
@@ -141,7 +141,7 @@ std::vector<BrokenFile> broken_files() {
   return {
       {"empty.ply", "", {"empty"}},
       {"foreign.ply", "\x89PNG\r\n\x1a\n", {"does not start with 'ply'"}},
-      {"unknown.dae", "x", {"unknown mesh format '.dae'", ".ply, .obj, .stl or .off"}},
+      {"unknown.dae", "x", {"unknown mesh format '.dae'", ".ply, .obj, .stl, .off"}},
       {"header.ply", ply.substr(0, 60), {"line", "truncated"}},
       {"body.ply", ply.substr(0, ply.size() - 12), {"truncated"}},
       {"binary_body.ply", little.substr(0, little.size() - 3), {"face 3", "truncated"}},
@@ -168,7 +168,7 @@ std::vector<BrokenFile> broken_files() {
       {"text.obj", "Dear Sir or Madam\n", {"no vertex lines"}},
       {"index.obj", replaced(tetrahedron_obj, "f 2 3 4", "f 2 3 5"), {"line 7", "index 5", "4 vertices"}},
       {"zero.obj", replaced(tetrahedron_obj, "f 2 3 4", "f 0 3 4"), {"line 7", "index 0"}},
-      {"short.obj", replaced(tetrahedron_obj, "f 2 3 4", "f 2 3"), {"line 7", "three vertices"}},
+      {"bare.obj", replaced(tetrahedron_obj, "f 2 3 4", "f"), {"line 7", "without vertices"}},
       {"nan.obj", replaced(tetrahedron_obj, "v 1 0 0", "v nan 0 0"), {"line 2", "not finite"}},
       {"missing.obj", replaced(tetrahedron_obj, "v 1 0 0", "v 1 0"), {"line 2", "missing"}},
       {"foreign.off", "solid x\n", {"OFF"}},

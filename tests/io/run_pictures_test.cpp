@@ -115,3 +115,31 @@ TEST(RunPictures, WithoutFramesThereIsAMessage) {
   EXPECT_THROW(frame_panels(broken_run(), scratch / "nowhere", 3, {}), InputError);
   EXPECT_THROW(run_view_from_name("smoke"), InputError);
 }
+
+TEST(RunPictures, UpIsYOnlyWhereTheBodyIsTallestAlongIt) {
+  RunDocument run;
+  EXPECT_EQ(usual_up(run), Vec3::UnitZ());
+  run.body = Box{Vec3(0, 0, 0), Vec3(1, 2, 1)};
+  EXPECT_EQ(usual_up(run), Vec3::UnitY());
+  run.body = Box{Vec3(0, 0, 0), Vec3(1, 1.1, 1)};
+  EXPECT_EQ(usual_up(run), Vec3::UnitZ());
+  run.body = Box{Vec3(0, 0, 0), Vec3(3, 2, 1)};
+  EXPECT_EQ(usual_up(run), Vec3::UnitZ());
+}
+
+TEST(RunPictures, AChipLeavesItsNotch) {
+  // A chip in the middle of a face: its centre is hardly away from that of the body.
+  std::vector<Fragment> pieces(2);
+  pieces[0].mesh = box({-0.5, -0.5, -0.05}, {0.5, 0.5, 0.05});
+  pieces[1].mesh = box({-0.05, -0.05, 0.0}, {0.05, 0.05, 0.05});
+  for (Fragment& f : pieces) {
+    f.volume = f.mass = enclosed_volume(f.mesh);
+    f.center_of_mass = bounding_box(f.mesh).center();
+    f.face_kind.assign(f.mesh.triangle_count(), FaceKind::original);
+  }
+  for (std::size_t t = 0; t < pieces[1].mesh.triangle_count(); ++t)
+    if (unit_normal(pieces[1].mesh, TriId(t)).z() < 0.9) pieces[1].face_kind[t] = FaceKind::fracture;
+  const std::vector<PictureMesh> apart = exploded(pieces, 0.25);
+  EXPECT_GE((apart[1].offset - apart[0].offset).z(), 0.05) << "by its height at least";
+  EXPECT_TRUE(exploded(pieces, 0)[1].offset.isZero(0));
+}

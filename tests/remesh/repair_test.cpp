@@ -113,6 +113,17 @@ TEST(Examine, IntersectionsAreCountedAndPlaced) {
   EXPECT_EQ(report.parts.size(), 2u);
 }
 
+TEST(Examine, AllThatIsWrongIsListedAtOnce) {
+  TriMesh mesh = overlapping_spheres();
+  append(mesh, flipped(icosphere(0.5, 1)), Vec3(0, 5, 0));
+  append(mesh, cube_with_hole(), Vec3(0, 0, 5));
+  mesh.positions.push_back(Vec3(9, 9, 9));
+  const SurfaceReport report = examine(mesh);
+  for (const DefectKind kind : {DefectKind::self_intersection, DefectKind::inside_out, DefectKind::open_edge,
+                                DefectKind::unused_node})
+    EXPECT_TRUE(report.defect_counts.contains(kind)) << name_of(kind);
+}
+
 TEST(Examine, PartsKnowCavitiesAndWhichWayTheyAreOriented) {
   TriMesh mesh = icosphere(1, 2);
   append(mesh, flipped(icosphere(0.5, 2)));

@@ -1,4 +1,6 @@
 #include "conchoid/bem/contact.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/progress.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -146,7 +148,9 @@ ContactReport close_penetrating_faces(std::vector<double>& x,
   ClosedFaces faces(free_solution, constraints, solve);
   std::vector<char> closed(constraints.size(), 0);
   Pivots pivots;
+  Progress progress("sweeps of contact, at most", static_cast<std::size_t>(std::max(0, most_sweeps)));
   while (true) {
+    throw_if_interrupted();
     report.penetration = 0;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (!closed[i]) report.penetration = std::max(report.penetration, -faces.opening(i));
@@ -156,6 +160,7 @@ ContactReport close_penetrating_faces(std::vector<double>& x,
     pivots.exchange(wrong, closed);
     faces.press(closed);
     ++report.sweeps;
+    progress.advance();
   }
   x = faces.solution();
   return report;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "conchoid/core/context.hpp"
+#include "conchoid/core/interrupt.hpp"
 
 namespace conchoid {
 namespace {
@@ -51,10 +52,12 @@ void parallel_for(std::size_t n, std::size_t grain,
   if (n == 0) return;
   grain = std::max<std::size_t>(1, grain);
   const std::size_t chunks = (n + grain - 1) / grain;
+  throw_if_interrupted();
   if (chunks == 1) return body(0, n);
   const ExecutionContext* context = ExecutionContext::current();
   run_chunks(chunks, [&](std::size_t c) {
     const CurrentContext inherited(context);
+    throw_if_interrupted();
     body(c * grain, std::min(n, (c + 1) * grain));
   });
 }

@@ -21,7 +21,9 @@ std::int64_t zero_based(std::int64_t index, std::size_t count) {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& file) : scan_(bytes, file) {}
+  ObjReader(std::string_view bytes, const std::string& file) : scan_(bytes, file), skipped_(file) {
+    scan_.join_lines_after('\\');
+  }
 
   AttributedMesh run() {
     while (scan_.next_line('#')) {
@@ -36,7 +38,12 @@ class ObjReader {
         attributes_.use_material(std::string(scan_.next_word()));
       else if (keyword == "f")
         read_face();
+      else if (keyword == "l")
+        skipped_.add("line elements");
+      else if (keyword == "p")
+        skipped_.add("point elements");
     }
+    skipped_.warn();
     SurfaceAttributes attributes = attributes_.finish(mesh_.triangle_count());
     return {std::move(mesh_), std::move(attributes)};
   }
@@ -85,20 +92,22 @@ class ObjReader {
       corners_.push_back(corner(word));
       polygon_.push_back(NodeId(static_cast<std::size_t>(corners_.back().vertex)));
     }
-    if (polygon_.size() < 3) scan_.fail("a face needs at least three vertices");
-    const std::size_t first = mesh_.triangle_count();
-    add_polygon(mesh_, polygon_);
-    for (std::size_t t = first; t < mesh_.triangle_count(); ++t) {
+    if (polygon_.empty()) scan_.fail("a face without vertices");
+    if (polygon_.size() < 3) return skipped_.add("faces of fewer than three vertices");
+    std::size_t t = mesh_.triangle_count();
+    for (const PolygonTriangle& places : add_polygon(mesh_, polygon_)) {
       attributes_.add_triangle(t);
       for (int k = 0; k < 3; ++k) {
-        const Corner& c = corners_[polygon_corner(t - first, k)];
+        const Corner& c = corners_[places[static_cast<std::size_t>(k)]];
         if (c.uv >= 0) attributes_.add_uv(t, k, uvs_[static_cast<std::size_t>(c.uv)]);
         if (c.normal >= 0) attributes_.add_normal(t, k, normals_[static_cast<std::size_t>(c.normal)]);
       }
+      ++t;
     }
   }
 
   TextScanner scan_;
+  SkippedElements skipped_;
   TriMesh mesh_;
   std::vector<Vec3> normals_;
   std::vector<Vec2> uvs_;

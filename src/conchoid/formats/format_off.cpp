@@ -41,11 +41,12 @@ TriMesh read_off(std::string_view bytes, const std::string& file) {
     mesh.positions.push_back(x);
   }
   std::vector<NodeId> polygon;
+  SkippedElements skipped(file);
   for (std::size_t f = 0; f < faces; ++f) {
     if (!scan.next_line(comment))
       scan.fail("the file ends before face " + std::to_string(f) + "; it is truncated");
     const std::int64_t corners = scan.integer(scan.next_word(), "number of corners");
-    if (corners < 3) scan.fail("face " + std::to_string(f) + " has fewer than three corners");
+    if (corners < 1) scan.fail("face " + std::to_string(f) + " has no corners");
     polygon.clear();
     for (std::int64_t k = 0; k < corners; ++k) {
       const std::int64_t index = scan.integer(scan.next_word(), "vertex index");
@@ -54,8 +55,12 @@ TriMesh read_off(std::string_view bytes, const std::string& file) {
                   " is out of range 0 … " + std::to_string(static_cast<std::int64_t>(vertices) - 1));
       polygon.push_back(NodeId(static_cast<std::size_t>(index)));
     }
-    add_polygon(mesh, polygon);
+    if (corners < 3)
+      skipped.add("faces of fewer than three vertices");
+    else
+      add_polygon(mesh, polygon);
   }
+  skipped.warn();
   return mesh;
 }
 

@@ -13,6 +13,7 @@ namespace conchoid {
 AttributedMesh read_obj(std::string_view bytes, const std::string& file);
 TriMesh read_stl(std::string_view bytes, const std::string& file);
 TriMesh read_off(std::string_view bytes, const std::string& file);
+AttributedMesh read_glb(std::string_view bytes, const std::string& file);
 
 void write_obj(std::ostream& out, const TriMesh& mesh);
 void write_stl(std::ostream& out, const TriMesh& mesh);

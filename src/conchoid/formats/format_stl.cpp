@@ -1,7 +1,10 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 
 #include "conchoid/core/byte_order.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/formats/format_readers.hpp"
 #include "conchoid/formats/mesh_text.hpp"
 #include "conchoid/mesh/place.hpp"
@@ -34,6 +37,23 @@ TriMesh read_binary(std::string_view bytes, const std::string& file) {
   return mesh;
 }
 
+char small_letter(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
+
+/// Whether a word of the file is this one, in any case of letters.
+bool is(std::string_view word, std::string_view lower_case) {
+  return std::equal(word.begin(), word.end(), lower_case.begin(), lower_case.end(),
+                    [](char a, char b) { return small_letter(a) == b; });
+}
+
+/// Programs write "solid" into the header of binary files too: those have bytes that are no text.
+bool is_text(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && is(bytes.substr(first, 5), "solid") &&
+         bytes.find('\0') == std::string_view::npos;
+}
+
 TriMesh read_ascii(std::string_view bytes, const std::string& file) {
   TriMesh mesh;
   NodeWelder merge(mesh);
@@ -42,25 +62,25 @@ TriMesh read_ascii(std::string_view bytes, const std::string& file) {
   bool ended = false, inside = false;
   while (scan.next_line()) {
     const std::string_view keyword = scan.next_word();
-    if (keyword == "outer") {
+    if (is(keyword, "outer")) {
       loop.clear();
       inside = true;
-    } else if (keyword == "vertex") {
+    } else if (is(keyword, "vertex")) {
       if (!inside) scan.fail("a vertex outside of 'outer loop'");
       Vec3 x;
       for (int k = 0; k < 3; ++k)
         x[k] = scan.number(scan.next_word(), "vertex coordinate");
       loop.push_back(merge(x));
-    } else if (keyword == "endloop") {
+    } else if (is(keyword, "endloop")) {
       if (loop.size() != 3)
         scan.fail("a facet has " + std::to_string(loop.size()) + " vertices instead of three");
       add_polygon(mesh, loop);
       inside = false;
-    } else if (keyword == "endsolid") {
+    } else if (is(keyword, "endsolid")) {
       ended = true;
-    } else if (keyword == "solid") {
+    } else if (is(keyword, "solid")) {
       ended = false;
-    } else if (keyword != "facet" && keyword != "endfacet") {
+    } else if (!is(keyword, "facet") && !is(keyword, "endfacet")) {
       scan.fail("an unknown keyword; the file is not an ascii .stl or it is damaged");
     }
   }
@@ -71,12 +91,17 @@ TriMesh read_ascii(std::string_view bytes, const std::string& file) {
 }  // namespace
 
 TriMesh read_stl(std::string_view bytes, const std::string& file) {
-  // Binary files may start with 'solid' too: the size that the triangle count implies decides.
   const bool has_count = bytes.size() >= header_size + 4;
   const std::uint64_t count = has_count ? from_bytes<std::uint32_t>(bytes.substr(header_size)) : 0;
-  if (has_count && bytes.size() == header_size + 4 + count * record_size) return read_binary(bytes, file);
-  if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos)
-    return read_ascii(bytes, file);
+  const std::uint64_t promised = header_size + 4 + count * record_size;
+  // The size that the triangle count implies decides before any word does.
+  if (has_count && bytes.size() == promised) return read_binary(bytes, file);
+  if (is_text(bytes)) return read_ascii(bytes, file);
+  if (has_count && count > 0 && bytes.size() > promised) {
+    warning(file + ": " + std::to_string(bytes.size() - promised) + " bytes after the last of its " +
+            std::to_string(count) + " triangles are not read");
+    return read_binary(bytes, file);
+  }
   if (!has_count) fail_in_file(file, "is too short to be a .stl file; it is truncated or of another format");
   fail_in_file(file, "the header promises " + std::to_string(count) +
                          " triangles but the file has room for " +

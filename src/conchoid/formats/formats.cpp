@@ -18,7 +18,7 @@ namespace {
 struct Format {
   std::string_view ending;
   AttributedMesh (*read)(std::string_view, const std::string&);
-  void (*write)(std::ostream&, const TriMesh&);
+  void (*write)(std::ostream&, const TriMesh&);  ///< null: read only
 };
 
 AttributedMesh read_ply_surface(std::string_view bytes, const std::string& file) {
@@ -37,10 +37,11 @@ AttributedMesh bare(std::string_view bytes, const std::string& file) {
   return {read(bytes, file), {}};
 }
 
-constexpr std::array<Format, 4> formats = {{{".ply", read_ply_surface, write_ply_mesh},
+constexpr std::array<Format, 5> formats = {{{".ply", read_ply_surface, write_ply_mesh},
                                             {".obj", read_obj, write_obj},
                                             {".stl", bare<read_stl>, write_stl},
-                                            {".off", bare<read_off>, write_off}}};
+                                            {".off", bare<read_off>, write_off},
+                                            {".glb", read_glb, nullptr}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -48,7 +49,8 @@ const Format& format_of(const std::filesystem::path& path) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Format& format : formats)
     if (format.ending == ending) return format;
-  fail_in_file(path.string(), "unknown mesh format '" + ending + "'; use .ply, .obj, .stl or .off");
+  fail_in_file(path.string(),
+               "unknown mesh format '" + ending + "'; use .ply, .obj, .stl, .off or, to read, .glb");
 }
 
 }  // namespace
@@ -72,8 +74,19 @@ TriMesh read_mesh(const std::filesystem::path& path) {
   return read_surface(path).mesh;
 }
 
+void write_surface(const std::filesystem::path& path, const AttributedMesh& surface) {
+  if (format_of(path).write != write_ply_mesh) return write_mesh(path, surface.mesh);
+  PlyMesh ply;
+  ply.mesh = surface.mesh;
+  ply.attributes = surface.attributes;
+  write_ply(path, ply);
+}
+
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
   const Format& format = format_of(path);
+  if (!format.write)
+    fail_in_file(path.string(), "surfaces are read from, not written as, " + std::string(format.ending) +
+                                    "; use .ply, .obj, .stl or .off");
   AtomicFile file(path);
   format.write(file.stream(), mesh);
   file.commit();

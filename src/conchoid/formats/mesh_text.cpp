@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/log.hpp"
 
 namespace conchoid {
 namespace {
@@ -21,13 +23,26 @@ std::string quoted(std::string_view word) {
 
 }  // namespace
 
+void TextScanner::take_line() {
+  throw_if_interrupted();
+  const std::size_t end = text_.find('\n');
+  current_ = text_.substr(0, end);
+  text_ = end == std::string_view::npos ? std::string_view() : text_.substr(end + 1);
+  ++line_;
+  if (comment_ != '\0') current_ = current_.substr(0, current_.find(comment_));
+  const std::size_t last = current_.find_last_not_of(blanks);
+  goes_on_ = mark_ != '\0' && last != std::string_view::npos && current_[last] == mark_;
+  if (goes_on_) current_ = current_.substr(0, last);
+}
+
 bool TextScanner::next_line(char comment) {
+  comment_ = comment;
+  while (goes_on_ && !text_.empty())
+    take_line();
   while (!text_.empty()) {
-    const std::size_t end = text_.find('\n');
-    current_ = text_.substr(0, end);
-    text_ = end == std::string_view::npos ? std::string_view() : text_.substr(end + 1);
-    ++line_;
-    if (comment != '\0') current_ = current_.substr(0, current_.find(comment));
+    take_line();
+    while (goes_on_ && current_.find_first_not_of(blanks) == std::string_view::npos && !text_.empty())
+      take_line();
     if (current_.find_first_not_of(blanks) != std::string_view::npos) return true;
   }
   current_ = {};
@@ -35,7 +50,11 @@ bool TextScanner::next_line(char comment) {
 }
 
 std::string_view TextScanner::next_word() {
-  const std::size_t begin = current_.find_first_not_of(blanks);
+  std::size_t begin = current_.find_first_not_of(blanks);
+  while (begin == std::string_view::npos && goes_on_ && !text_.empty()) {
+    take_line();
+    begin = current_.find_first_not_of(blanks);
+  }
   if (begin == std::string_view::npos) {
     current_ = {};
     return {};
@@ -85,9 +104,28 @@ void fail_in_file(const std::string& file, const std::string& message) {
   throw InputError(file + ": " + message);
 }
 
-void add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon) {
-  for (std::size_t k = 2; k < polygon.size(); ++k)
-    mesh.corners.push_back({polygon[0], polygon[k - 1], polygon[k]});
+std::vector<PolygonTriangle> add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon) {
+  std::vector<NodeId> nodes;
+  std::vector<std::size_t> place;
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    if (polygon.size() <= 3 || polygon[k] != polygon[(k + 1) % polygon.size()]) {
+      nodes.push_back(polygon[k]);
+      place.push_back(k);
+    }
+  std::vector<PolygonTriangle> triangles = polygon_triangles(mesh.positions, nodes);
+  for (PolygonTriangle& t : triangles) {
+    for (std::size_t& k : t)
+      k = place[k];
+    mesh.corners.push_back({polygon[t[0]], polygon[t[1]], polygon[t[2]]});
+  }
+  return triangles;
+}
+
+void SkippedElements::warn() const {
+  std::string text;
+  for (const auto& [kind, count] : counts_)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  if (!text.empty()) warning(file_ + ": skipped " + text + "; they bound no area");
 }
 
 }  // namespace conchoid

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
+#include "conchoid/mesh/polygon_triangles.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -15,6 +17,8 @@ class TextScanner {
   TextScanner(std::string_view text, std::string file, std::size_t first_line = 1)
       : text_(text), file_(std::move(file)), line_(first_line - 1) {}
 
+  /// A line whose last character before its comment is this one goes on in the next.
+  void join_lines_after(char mark) { mark_ = mark; }
   /// Goes to the next line that has words; `comment` starts a comment that runs to the end of a line. False
   /// at the end.
   bool next_line(char comment = '\0');
@@ -32,19 +36,33 @@ class TextScanner {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  void take_line();
+
   std::string_view text_, current_;
   std::string file_;
   std::size_t line_;
+  char comment_ = '\0', mark_ = '\0';
+  bool goes_on_ = false;  ///< the next line belongs to the current one
 };
 
 /// "FILE: message" as InputError.
 [[noreturn]] void fail_in_file(const std::string& file, const std::string& message);
 
-/// Appends the triangles of a polygon, as a fan about its first corner.
-void add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon);
-/// Which corner of the polygon is corner k of the i-th triangle of its fan.
-inline std::size_t polygon_corner(std::size_t i, int k) {
-  return k == 0 ? 0 : i + static_cast<std::size_t>(k);
-}
+/// Appends the triangles of a polygon of nodes that the mesh has (polygon_triangles.hpp) and returns their
+/// places in it. Nodes named twice running count once; two nodes and fewer give no triangle.
+std::vector<PolygonTriangle> add_polygon(TriMesh& mesh, const std::vector<NodeId>& polygon);
+
+/// Says once, when a file is read, what was left out of it because it bounds no area.
+class SkippedElements {
+ public:
+  explicit SkippedElements(std::string file) : file_(std::move(file)) {}
+  /// @param kind  in the plural: "faces of fewer than three vertices"
+  void add(const std::string& kind) { ++counts_[kind]; }
+  void warn() const;
+
+ private:
+  std::string file_;
+  std::map<std::string, std::size_t> counts_;
+};
 
 }  // namespace conchoid

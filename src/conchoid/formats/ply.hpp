@@ -28,8 +28,8 @@ void write_ply(std::ostream& out, const PlyMesh& ply);
 /// Likewise to a file, which appears complete or not at all.
 void write_ply(const std::filesystem::path& path, const PlyMesh& ply);
 
-/// Reads ascii and binary PLY of both byte orders, properties in any order; unknown ones are skipped and
-/// polygons become fans of triangles. Corners without values of their own take those of their vertices
+/// Reads ascii and binary PLY of both byte orders, properties in any order; unknown ones are skipped,
+/// polygons and strips become triangles. Corners without values of their own take those of their vertices
 /// (nx ny nz; s t, u v, texture_u texture_v or texture_s texture_t); a material index (material_index or
 /// material) becomes the material named "material_INDEX".
 /// @param file  its name, for messages

@@ -104,9 +104,25 @@ void require_surface(const Header& header, const std::string& file) {
     if (std::none_of(vertex.properties.begin(), vertex.properties.end(),
                      [&](const Property& p) { return p.name == axis && !p.list_count; }))
       fail_in_file(file, "its vertices have no property '" + std::string(axis) + "'");
-  const Element& face = element_named(header, "face", file);
+  const auto strips = std::find_if(header.elements.begin(), header.elements.end(), holds_strips);
+  const bool has_faces = std::any_of(header.elements.begin(), header.elements.end(),
+                                     [](const Element& e) { return e.name == "face"; });
+  const Element& face =
+      !has_faces && strips != header.elements.end() ? *strips : element_named(header, "face", file);
   if (std::none_of(face.properties.begin(), face.properties.end(), holds_corners))
-    fail_in_file(file, "its faces have no list 'vertex_indices'; export faces, not strips");
+    fail_in_file(file, "its faces have no list 'vertex_indices'; export faces or triangle strips");
+}
+
+bool holds_strips(const Element& element) {
+  return element.name == "tristrips";
+}
+
+bool comes_before(const Header& header, std::string_view first, std::string_view second) {
+  for (const Element& element : header.elements) {
+    if (element.name == first) return true;
+    if (element.name == second) return false;
+  }
+  return false;
 }
 
 }  // namespace conchoid::ply

@@ -36,9 +36,13 @@ struct Header {
 /// @param file_size  no element can be more often there than the file has bytes
 Header read_header(TextScanner& scan, const std::string& file, std::size_t file_size);
 
-/// Throws InputError unless the vertices have x, y and z and the faces a list of vertices.
+/// Throws InputError unless the vertices have x, y and z and the faces or strips a list of vertices.
 void require_surface(const Header& header, const std::string& file);
 const Element& element_named(const Header& header, std::string_view name, const std::string& file);
+/// Whether its items are strips of triangles, in the places of faces.
+bool holds_strips(const Element& element);
+/// Whether `first` comes before `second` in the body.
+bool comes_before(const Header& header, std::string_view first, std::string_view second);
 /// Whether this is the list of the vertices of a face.
 bool holds_corners(const Property& property);
 

@@ -6,6 +6,7 @@
 
 #include "conchoid/core/byte_order.hpp"
 #include "conchoid/core/bytes.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/formats/mesh_text.hpp"
 #include "conchoid/formats/ply.hpp"
 #include "conchoid/formats/ply_header.hpp"
@@ -117,17 +118,19 @@ bool holds_material(const Property& property) {
   return !property.list_count && (property.name == "material_index" || property.name == "material");
 }
 
+NodeId vertex_of(const Body& body, double index, std::uint64_t vertex_count) {
+  if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
+    body.fail("a vertex index is out of range 0 … " +
+              std::to_string(static_cast<std::int64_t>(vertex_count) - 1));
+  return NodeId(static_cast<std::size_t>(index));
+}
+
 void read_corners(Body& body, const Property& property, std::uint64_t vertex_count,
                   std::vector<NodeId>& polygon) {
   const std::uint64_t corners = body.next_length(property);
   if (corners < 3) body.fail("has fewer than three corners");
-  for (std::uint64_t k = 0; k < corners; ++k) {
-    const double index = body.next(property.type);
-    if (!(index >= 0) || index >= static_cast<double>(vertex_count) || index != std::floor(index))
-      body.fail("a vertex index is out of range 0 … " +
-                std::to_string(static_cast<std::int64_t>(vertex_count) - 1));
-    polygon.push_back(NodeId(static_cast<std::size_t>(index)));
-  }
+  for (std::uint64_t k = 0; k < corners; ++k)
+    polygon.push_back(vertex_of(body, body.next(property.type), vertex_count));
 }
 
 /// Normals or texture coordinates of the corners of a face, one after the other.
@@ -160,14 +163,21 @@ std::vector<int>* tag_list(const Property& property, PlyMesh& ply) {
 /// Fills the mesh and its attributes element by element.
 class SurfaceReader {
  public:
-  explicit SurfaceReader(std::uint64_t vertex_count) : vertex_count_(vertex_count) {}
+  SurfaceReader(std::uint64_t vertex_count, const std::string& file)
+      : vertex_count_(vertex_count), file_(file) {}
 
   void read_vertex(Body& body, const Element& element);
   void read_face(Body& body, const Element& element);
+  void read_strips(Body& body, const Element& element);
   PlyMesh finish();
 
  private:
+  void add_strip(const std::vector<NodeId>& strip);
+  void turn_strips_outward();
+
   std::uint64_t vertex_count_;
+  bool only_strips_ = true;
+  const std::string& file_;
   PlyMesh out_;
   std::vector<Vec2> node_uv_;
   AttributeCollector attributes_;
@@ -217,23 +227,70 @@ void SurfaceReader::read_face(Body& body, const Element& element) {
       skip(body, property);
     }
   }
-  const std::size_t first = out_.mesh.triangle_count();
-  add_polygon(out_.mesh, polygon);
+  only_strips_ = false;
+  std::size_t t = out_.mesh.triangle_count();
+  const std::vector<PolygonTriangle> triangles = add_polygon(out_.mesh, polygon);
   for (const auto& [list, value] : tags)
     list->resize(out_.mesh.triangle_count(), value);
-  for (std::size_t t = first; t < out_.mesh.triangle_count(); ++t) {
+  for (const PolygonTriangle& places : triangles) {
     attributes_.add_triangle(t);
     for (int k = 0; k < 3; ++k) {
-      const std::size_t c = polygon_corner(t - first, k);
+      const std::size_t c = places[static_cast<std::size_t>(k)];
       if (uv.size() == 2 * polygon.size()) attributes_.add_uv(t, k, {uv[2 * c], uv[2 * c + 1]});
       if (normal.size() == 3 * polygon.size())
         attributes_.add_normal(t, k, {normal[3 * c], normal[3 * c + 1], normal[3 * c + 2]});
     }
+    ++t;
   }
+}
+
+/// Strips of triangles one after the other, with −1 between two. Every second triangle of a strip is wound the
+/// other way; those that name a node twice only lead the strip to another place.
+void SurfaceReader::read_strips(Body& body, const Element& element) {
+  for (const Property& property : element.properties) {
+    if (!holds_corners(property)) {
+      skip(body, property);
+      continue;
+    }
+    std::vector<NodeId> strip;
+    for (std::uint64_t k = body.next_length(property); k > 0; --k) {
+      const double index = body.next(property.type);
+      if (index == -1) {
+        add_strip(strip);
+        strip.clear();
+      } else {
+        strip.push_back(vertex_of(body, index, vertex_count_));
+      }
+    }
+    add_strip(strip);
+  }
+}
+
+void SurfaceReader::add_strip(const std::vector<NodeId>& strip) {
+  for (std::size_t k = 2; k < strip.size(); ++k) {
+    const NodeId a = strip[k - 2], b = strip[k - 1], c = strip[k];
+    if (a == b || b == c || c == a) continue;
+    k % 2 == 0 ? out_.mesh.corners.push_back({a, b, c}) : out_.mesh.corners.push_back({b, a, c});
+  }
+}
+
+/// Programs do not agree on the side from which the first triangle of a strip is counter-clockwise. A surface
+/// made of strips alone is taken for that of a body: the side away from its inside.
+void SurfaceReader::turn_strips_outward() {
+  if (!only_strips_ || out_.mesh.corners.empty()) return;
+  const Vec3 center = bounding_box(out_.mesh).center();
+  TriMesh centred = out_.mesh;
+  for (Vec3& x : centred.positions)
+    x -= center;
+  if (!(enclosed_volume(centred) < 0)) return;
+  for (auto& c : out_.mesh.corners)
+    std::swap(c[1], c[2]);
+  warning(file_ + ": its strips are wound the other way round; they were turned to look outward");
 }
 
 /// Gives the corners what their vertices carry; what faces have of their own stays.
 PlyMesh SurfaceReader::finish() {
+  turn_strips_outward();
   const bool faces_have_uv = attributes_.has_uv(), faces_have_normal = attributes_.has_normal();
   for (std::size_t t = 0; t < out_.mesh.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -252,19 +309,31 @@ PlyMesh read_ply(std::string_view bytes, const std::string& file) {
   TextScanner scan(bytes, file);
   const ply::Header header = ply::read_header(scan, file, bytes.size());
   require_surface(header, file);
-  SurfaceReader reader(element_named(header, "vertex", file).count);
-  Body body(header.encoding, scan, file);
-  for (const Element& element : header.elements)
-    for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
-      body.at(element, i);
-      if (element.name == "vertex")
-        reader.read_vertex(body, element);
-      else if (element.name == "face")
-        reader.read_face(body, element);
-      else
-        for (const Property& property : element.properties)
-          skip(body, property);
-    }
+  SurfaceReader reader(element_named(header, "vertex", file).count, file);
+  enum class Part { vertices, triangles };
+  const auto read = [&](TextScanner from, std::initializer_list<Part> parts) {
+    const auto wanted = [&](Part part) { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
+    Body body(header.encoding, from, file);
+    for (const Element& element : header.elements)
+      for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
+        body.at(element, i);
+        if (element.name == "vertex" && wanted(Part::vertices))
+          reader.read_vertex(body, element);
+        else if (element.name == "face" && wanted(Part::triangles))
+          reader.read_face(body, element);
+        else if (holds_strips(element) && wanted(Part::triangles))
+          reader.read_strips(body, element);
+        else
+          for (const Property& property : element.properties)
+            skip(body, property);
+      }
+  };
+  if (ply::comes_before(header, "face", "vertex")) {  // polygons are divided by the places of their vertices
+    read(scan, {Part::vertices});
+    read(scan, {Part::triangles});
+  } else {
+    read(scan, {Part::vertices, Part::triangles});
+  }
   return reader.finish();
 }
 

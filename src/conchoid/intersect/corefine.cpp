@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine_merge.hpp"
 #include "conchoid/intersect/inside_pieces.hpp"
 #include "conchoid/intersect/predicates.hpp"
 #include "conchoid/intersect/retriangulate.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/corners.hpp"
+#include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
 namespace {
@@ -46,13 +49,28 @@ class Corefinement {
             perturbed_points(sheet, Role::sheet, static_cast<std::uint32_t>(surface.node_count()))) {}
 
   CutComplex run() {
-    find_segments();
-    make_nodes();
-    join_crossings(Key::surface_edge);
-    join_crossings(Key::sheet_edge);
-    cut_surface();
-    cut_sheet();
+    cut_both();
     return keep_inside();
+  }
+  SplitSurfaces split() {
+    cut_both();
+    std::vector<MouthSide> mouth = mouth_sides();
+    const std::vector<bool> sheet_inside =
+        inside_pieces(sheet_pieces_, mouth, [&](NodeId n) { return ray_says_inside(n); });
+    // What lies to the left on the sheet lies to the right on the surface (theirs is the same curve).
+    for (MouthSide& side : mouth)
+      side.second = !side.second;
+    const std::vector<Corners> surface_pieces(result_.surface.begin(), result_.surface.end());
+    const std::vector<bool> surface_inside = inside_pieces(surface_pieces, std::move(mouth), [&](NodeId n) {
+      return winding_number(sheet_, positions_[n]) > 0.5;
+    });
+    SplitSurfaces out;
+    for (std::size_t p = 0; p < surface_pieces.size(); ++p)
+      out.first.push_back({surface_pieces[p], surface_inside[p]});
+    for (std::size_t p = 0; p < sheet_pieces_.size(); ++p)
+      out.second.push_back({sheet_pieces_[p], sheet_inside[p]});
+    out.positions = std::move(positions_);
+    return out;
   }
   /// Per node of the complex that run() returned.
   IdVector<NodeId, SurfaceSupport> supports() const { return supports_; }
@@ -77,9 +95,27 @@ class Corefinement {
     return s == orientation(p, q, *t[1], *t[2]) && s == orientation(p, q, *t[2], *t[0]);
   }
 
+  void cut_both() {
+    Progress progress("steps of a cut", 5);
+    const auto step = [&](auto&& work) {
+      work();
+      progress.advance();
+    };
+    step([&] { find_segments(); });
+    step([&] { make_nodes(); });
+    step([&] {
+      join_crossings(Key::surface_edge);
+      join_crossings(Key::sheet_edge);
+    });
+    step([&] { cut_surface(); });
+    step([&] { cut_sheet(); });
+  }
+
   void find_segments() {
-    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_))
+    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_)) {
+      throw_if_interrupted();
       intersect(t, s);
+    }
   }
 
   void intersect(TriId t, TriId s) {
@@ -243,6 +279,7 @@ class Corefinement {
     for (std::size_t i = 0; i < segments_.size(); ++i)
       lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
     for (std::size_t t = 0; t < lists.size(); ++t) {
+      throw_if_interrupted();
       const std::vector<std::size_t>& own = lists[TriId(t)];
       if (own.size() < 2) continue;
       for (const CrossingSegments& c : crossing_segments(positions_, triangle_cut(kind, TriId(t)))) {
@@ -302,6 +339,7 @@ class Corefinement {
 
   void cut_surface() {
     for (std::size_t i = 0; i < surface_.triangle_count(); ++i) {
+      throw_if_interrupted();
       const TriId t(i);
       if (on_surface_[t].empty()) {
         result_.surface.push_back(surface_.corners[t]);
@@ -317,6 +355,7 @@ class Corefinement {
 
   void cut_sheet() {
     for (std::size_t i = 0; i < sheet_.triangle_count(); ++i) {
+      throw_if_interrupted();
       const TriId s(i);
       if (on_sheet_[s].empty()) {
         Corners c = sheet_.corners[s];
@@ -445,6 +484,10 @@ CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const Corefine
   CutComplex cut = corefinement.run();
   if (settings.merge > 0) merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge);
   return cut;
+}
+
+SplitSurfaces split_by_each_other(const TriMesh& first, const TriMesh& second) {
+  return Corefinement(first, second).split();
 }
 
 }  // namespace conchoid

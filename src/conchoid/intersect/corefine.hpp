@@ -35,4 +35,18 @@ struct CorefineSettings {
 /// units; same input, same bits.
 CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const CorefineSettings& settings = {});
 
+/// Two closed surfaces, each cut along the curves where they meet.
+struct SplitSurfaces {
+  struct Piece {
+    std::array<NodeId, 3> corners;  ///< orientation kept
+    bool inside;                    ///< of the other surface
+  };
+  IdVector<NodeId, Vec3> positions;  ///< nodes of the first, nodes of the second, nodes of the curves
+  std::vector<Piece> first, second;
+};
+
+/// Cuts two closed surfaces (manifold, oriented outward) by each other, in general position after the same
+/// perturbation as corefine's: where they touch, the second reaches into the first.
+SplitSurfaces split_by_each_other(const TriMesh& first, const TriMesh& second);
+
 }  // namespace conchoid

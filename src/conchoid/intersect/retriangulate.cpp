@@ -7,7 +7,7 @@
 #include <set>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/intersect/triangulate_polygon.hpp"
+#include "conchoid/mesh/triangulate_polygon.hpp"
 
 namespace conchoid {
 namespace {

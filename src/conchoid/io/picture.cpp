@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -357,10 +358,30 @@ void write_picture(const std::filesystem::path& path, const std::vector<PictureP
   write_png(path, render_picture(panels, settings));
 }
 
+namespace {
+
+/// Away from what a chip came off: against the area vectors of its fracture faces.
+Vec3 way_out(const Fragment& chip) {
+  Vec3 into = Vec3::Zero();
+  for (std::size_t t = 0; t < chip.mesh.triangle_count(); ++t)
+    if (chip.face_kind[t] == FaceKind::fracture) into += area_vector(chip.mesh, TriId(t));
+  if (!(into.norm() > 0)) return Vec3::Zero();
+  const Vec3 out = -into.normalized();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& x : chip.mesh.positions) {
+    low = std::min(low, out.dot(x));
+    high = std::max(high, out.dot(x));
+  }
+  return (high - low) * out;
+}
+
+}  // namespace
+
 std::vector<PictureMesh> exploded(const std::vector<Fragment>& fragments, double factor) {
   Vec3 center = Vec3::Zero();
-  double mass = 0;
+  double mass = 0, largest = 0;
   for (const Fragment& f : fragments) {
+    largest = std::max(largest, f.volume);
     center += f.mass * f.center_of_mass;
     mass += f.mass;
   }
@@ -371,6 +392,8 @@ std::vector<PictureMesh> exploded(const std::vector<Fragment>& fragments, double
     m.mesh = f.mesh;
     m.face_kind = f.face_kind;
     m.offset = factor * (f.center_of_mass - center);
+    constexpr double chip = 0.1, extents = 4;
+    if (f.volume < chip * largest) m.offset += extents * factor * way_out(f);
     meshes.push_back(std::move(m));
   }
   return meshes;

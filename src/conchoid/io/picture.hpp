@@ -48,7 +48,8 @@ Image render_picture(const std::vector<PicturePanel>& panels, const PictureSetti
 void write_picture(const std::filesystem::path& path, const std::vector<PicturePanel>& panels,
                    const PictureSettings& settings = {});
 
-/// The fragments moved apart: each by `factor` times the way from the common centre of mass to its own.
+/// The fragments moved apart: each by `factor` times the way from the common centre of mass to its own; chips
+/// (below a tenth of the largest volume) besides out of the notch they left, by 4 `factor` times their extent.
 std::vector<PictureMesh> exploded(const std::vector<Fragment>& fragments, double factor);
 
 /// The crack inside the body: the body as a ghost, the crack's faces in the colour of fracture.

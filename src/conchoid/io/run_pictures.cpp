@@ -216,6 +216,13 @@ Frame last_in_one_piece(const fs::path& folder) {
 
 }  // namespace
 
+Vec3 usual_up(const RunDocument& run) {
+  constexpr double clearly = 1.2;
+  if (!run.body) return Vec3::UnitZ();
+  const Vec3 extent = run.body->high - run.body->low;
+  return extent.y() > clearly * std::max(extent.x(), extent.z()) ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitZ());
+}
+
 RunView run_view_from_name(const std::string& name) {
   if (name == "pieces") return RunView::pieces;
   if (name == "crack") return RunView::crack;

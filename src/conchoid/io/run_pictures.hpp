@@ -24,6 +24,9 @@ struct RunPictureSettings {
   double exaggerate = 0;  ///< opening: the two faces are moved apart by so many times the opening
 };
 
+/// The axis that points up when nobody says so: z, or y where the body is clearly taller in y than in x and z.
+Vec3 usual_up(const RunDocument& run);
+
 /// One panel for a run, with its method as title and a caption.
 /// @param folder  of the run: its frames are read for the view `opening`
 PicturePanel run_panel(const RunData& run, const std::filesystem::path& folder,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "conchoid/core/interrupt.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -22,6 +24,7 @@ BoxTree::BoxTree(const TriMesh& mesh) : order_(mesh.triangle_count()) {
 }
 
 std::size_t BoxTree::build(const std::vector<Vec3>& centers, std::size_t begin, std::size_t end) {
+  throw_if_interrupted();
   Box box = boxes_[order_[begin]];
   for (std::size_t i = begin + 1; i < end; ++i)
     box = united(box, boxes_[order_[i]]);
@@ -56,6 +59,7 @@ std::vector<std::pair<TriId, TriId>> overlapping_boxes(const TriMesh& a, const T
   const BoxTree tree(tree_on_a ? a : b);
   const TriMesh& other = tree_on_a ? b : a;
   for (std::size_t i = 0; i < other.triangle_count(); ++i) {
+    throw_if_interrupted();
     const TriId t(i);
     for (const TriId s : tree.overlapping(box_of(other.triangle(t))))
       pairs.push_back(tree_on_a ? std::pair(s, t) : std::pair(t, s));

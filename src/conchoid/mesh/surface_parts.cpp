@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
@@ -20,7 +21,10 @@ std::vector<std::pair<Edge, int>> unbalanced_edges(const TriMesh& mesh) {
       const NodeId p = c[k], q = c[(k + 1) % 3];
       if (p != q) sides.emplace_back(Edge(p, q), p < q ? 1 : -1);
     }
-  std::sort(sides.begin(), sides.end());
+  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
+    throw_if_interrupted();
+    return a < b;
+  });
   std::vector<std::pair<Edge, int>> sums;
   for (std::size_t i = 0; i < sides.size();) {
     int sum = 0;
@@ -54,7 +58,7 @@ void find_depths(const TriMesh& mesh, std::vector<SurfacePart>& parts) {
     boxes.push_back(bounding_box(meshes.back()));
   }
   for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t q = 0; q < parts.size(); ++q)
+    for (std::size_t q = 0; q < parts.size(); ++q, throw_if_interrupted())
       if (p != q && contains(boxes[q], boxes[p]) && lies_within(meshes[p], meshes[q])) ++parts[p].depth;
 }
 
@@ -64,6 +68,7 @@ TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles) {
   TriMesh part;
   IdVector<NodeId, NodeId> ids(mesh.node_count());
   for (TriId t : triangles) {
+    throw_if_interrupted();
     std::array<NodeId, 3> corners = mesh.corners[t];
     for (NodeId& n : corners) {
       if (!ids[n].valid()) ids[n] = part.positions.add(mesh.positions[n]);
@@ -79,11 +84,13 @@ std::vector<SurfacePart> surface_parts(const TriMesh& mesh) {
   std::map<int, std::size_t> place;
   std::vector<SurfacePart> parts;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    throw_if_interrupted();
     const int name = part_of_node[mesh.corners[TriId(t)][0].index()];
     const auto [found, fresh] = place.try_emplace(name, parts.size());
     if (fresh) parts.emplace_back().closed = true;
     parts[found->second].triangles.push_back(TriId(t));
   }
+  throw_if_interrupted();
   for (const auto& [edge, sum] : unbalanced_edges(mesh))
     parts[place.at(part_of_node[edge.a.index()])].closed = false;
   for (SurfacePart& part : parts) {
@@ -96,6 +103,7 @@ std::vector<SurfacePart> surface_parts(const TriMesh& mesh) {
         box.high = box.high.cwiseMax(x);
       }
     for (TriId t : part.triangles) {
+      throw_if_interrupted();
       const Triangle x = mesh.triangle(t);
       const Vec3 a = x[0] - box.center(), b = x[1] - box.center(), c = x[2] - box.center();
       part.volume += a.dot(cross(b, c)) / 6;

@@ -2,10 +2,18 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
 #include <queue>
+
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/progress.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 
 namespace conchoid {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Q(x) = xᵀ A x + 2 bᵀ x + c: sum of area-weighted squared distances from planes.
 struct Quadric {
@@ -46,25 +54,69 @@ struct Candidate {
   }
 };
 
+/// A plane of unit normal n, n·x = offset; a zero normal is no plane.
+struct Plane {
+  Vec3 normal;
+  double offset;
+};
+
+Plane plane_of(const Triangle& x) {
+  const Vec3 normal2 = area_vector2(x[0], x[1], x[2]);
+  const double area2 = normal2.norm();
+  const Vec3 n = area2 > 0 ? Vec3(normal2 / area2) : Vec3(Vec3::Zero());
+  return {n, n.dot(x[0])};
+}
+
+std::vector<Plane> own_planes(const EditableMesh& mesh) {
+  std::vector<Plane> planes;
+  for (std::size_t t = 0; t < mesh.triangle_slots(); ++t)
+    planes.push_back(plane_of(mesh.triangle(TriId(t))));
+  return planes;
+}
+
+std::vector<Plane> nearest_planes(const EditableMesh& mesh, const TriMesh& shape) {
+  const ClosestPointTree tree(shape);
+  std::vector<Plane> planes(mesh.triangle_slots());
+  parallel_for(planes.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle x = mesh.triangle(TriId(t));
+      const TriId nearest = tree.closest((x[0] + x[1] + x[2]) / 3).triangle;
+      planes[t] = nearest.valid() ? plane_of(shape.triangle(nearest)) : plane_of(x);
+    }
+  });
+  return planes;
+}
+
 class Decimation {
  public:
-  Decimation(EditableMesh& mesh, FeatureLines& features)
-      : mesh_(mesh), features_(features), quadrics_(mesh.node_slots()), versions_(mesh.node_slots(), 0) {
+  /// @param planes     per triangle: what its error is measured from
+  /// @param longest    edge that may come about [m]
+  /// @param tolerance  largest root mean square of the distances merged into a node [m]
+  Decimation(EditableMesh& mesh, FeatureLines& features, const std::vector<Plane>& planes, double tolerance,
+             double longest)
+      : mesh_(mesh),
+        features_(features),
+        tolerance_(tolerance),
+        longest_(longest),
+        quadrics_(mesh.node_slots()),
+        versions_(mesh.node_slots(), 0) {
     for (std::size_t t = 0; t < mesh.triangle_slots(); ++t) {
       const Triangle x = mesh.triangle(TriId(t));
-      const Vec3 normal2 = area_vector2(x[0], x[1], x[2]);
-      const double area2 = normal2.norm();
+      const double area2 = area_vector2(x[0], x[1], x[2]).norm();
       if (!(area2 > 0)) continue;
-      const Vec3 n = normal2 / area2;
       for (NodeId corner : mesh.corners(TriId(t)))
-        quadrics_[corner].add_plane(n, n.dot(x[0]), area2 / 6);
+        quadrics_[corner].add_plane(planes[t].normal, planes[t].offset, area2 / 6);
     }
-    for (const Edge& e : mesh.edges())
+    for (const Edge& e : mesh.edges()) {
+      throw_if_interrupted();
       propose(e);
+    }
   }
 
   void run(std::size_t target) {
+    Progress progress("triangles decimated, at most", mesh_.triangle_count() - target);
     while (mesh_.triangle_count() > target && !queue_.empty()) {
+      throw_if_interrupted();
       const Candidate best = queue_.top();
       queue_.pop();
       if (versions_[best.edge.a] + versions_[best.edge.b] != best.version || !mesh_.alive(best.edge.a) ||
@@ -72,6 +124,7 @@ class Decimation {
         continue;
       const auto [removed, kept, may_move] = best.merge;
       if (!mesh_.collapse(removed, kept, best.at)) continue;
+      progress.advance(2);
       features_.was_collapsed(removed, kept);
       quadrics_[kept] += quadrics_[removed];
       ++versions_[kept];
@@ -89,13 +142,19 @@ class Decimation {
     const Vec3 middle = 0.5 * (mesh_.position(e.a) + mesh_.position(e.b));
     const Vec3 at = merge->may_move ? sum.minimum(middle) : mesh_.position(merge->kept);
     const double length2 = (mesh_.position(e.a) - mesh_.position(e.b)).squaredNorm();
-    constexpr double preference_for_short_edges = 1e-4;  // decides where the surface is flat
+    if (longest_ < infinity)
+      for (const NodeId end : {e.a, e.b})
+        for (const NodeId n : mesh_.neighbours(end))
+          if ((mesh_.position(n) - at).norm() > longest_) return;
+    constexpr double preference_for_short_edges = 1e-4;             // decides where the surface is flat
+    if (sum(at) > tolerance_ * tolerance_ * sum.a.trace()) return;  // the trace is the area merged
     queue_.push({sum(at) + preference_for_short_edges * length2 * length2, e, versions_[e.a] + versions_[e.b],
                  *merge, at});
   }
 
   EditableMesh& mesh_;
   FeatureLines& features_;
+  double tolerance_, longest_;
   IdVector<NodeId, Quadric> quadrics_;
   IdVector<NodeId, std::uint32_t> versions_;
   std::priority_queue<Candidate> queue_;
@@ -104,7 +163,13 @@ class Decimation {
 }  // namespace
 
 void decimate(EditableMesh& mesh, FeatureLines& features, std::size_t target_triangles) {
-  if (mesh.triangle_count() > target_triangles) Decimation(mesh, features).run(target_triangles);
+  if (mesh.triangle_count() > target_triangles)
+    Decimation(mesh, features, own_planes(mesh), infinity, infinity).run(target_triangles);
+}
+
+void simplify(EditableMesh& mesh, const TriMesh& shape, double tolerance, double longest_edge) {
+  FeatureLines none;
+  Decimation(mesh, none, nearest_planes(mesh, shape), tolerance, longest_edge).run(0);
 }
 
 }  // namespace conchoid

@@ -10,4 +10,10 @@ namespace conchoid {
 /// step is possible.
 void decimate(EditableMesh& mesh, FeatureLines& features, std::size_t target_triangles);
 
+/// Likewise without a target, for a surface made anew close to `shape`: errors are measured from the planes of
+/// the triangles of `shape` that are nearest, so that edges which the new surface has cut off come back where
+/// these planes meet. Goes on while the root mean square of the distances merged into a node stays below
+/// `tolerance` [m] and no edge at it becomes longer than `longest_edge` [m].
+void simplify(EditableMesh& mesh, const TriMesh& shape, double tolerance, double longest_edge);
+
 }  // namespace conchoid

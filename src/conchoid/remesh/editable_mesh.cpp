@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/box.hpp"
 
@@ -36,8 +37,10 @@ double smallest_angle(const Triangle& x) {
 EditableMesh::EditableMesh(const TriMesh& mesh, double cell)
     : positions_(mesh.positions), stars_(mesh.node_count()), cell_(cell), origin_(bounding_box(mesh).low) {
   corners_.reserve(mesh.triangle_count());
-  for (const auto& c : mesh.corners)
+  for (const auto& c : mesh.corners) {
+    throw_if_interrupted();
     add(c);
+  }
 }
 
 Triangle EditableMesh::triangle(TriId t) const {
@@ -162,6 +165,7 @@ bool EditableMesh::move(NodeId n, const Vec3& to) {
 }
 
 bool EditableMesh::apply(const Change& change) {
+  throw_if_interrupted();
   if (!acceptable(change)) return false;
   for (TriId t : change.removed)
     remove(t);

@@ -11,7 +11,8 @@ namespace conchoid {
 
 /// A closed surface that is changed by local steps. Every step checks first that the surface stays closed and
 /// manifold, that no triangle turns over (its normal by more than about 70°) or collapses, and that it does
-/// not intersect the rest; otherwise the step is refused and nothing changes. Ids of removed triangles and
+/// not intersect the rest; otherwise the step is refused and nothing changes. Before a step requests to stop are
+/// heard (Interrupted). Ids of removed triangles and
 /// nodes are not used again.
 class EditableMesh {
  public:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
@@ -92,6 +93,27 @@ void find_intersections(const TriMesh& mesh, SurfaceReport& report) {
   }
 }
 
+/// What find_defects does not look for while something else is wrong.
+void list_the_others(SurfaceReport& report) {
+  const auto add = [&](DefectKind kind, const std::string& what, const std::string& remedy,
+                       std::vector<TriId> at) {
+    ++report.defect_counts[kind];
+    report.defects.push_back({kind, what, remedy, std::move(at), {}});
+  };
+  if (!report.defect_counts.contains(DefectKind::self_intersection))
+    for (const Intersection& at : report.intersections)
+      add(DefectKind::self_intersection,
+          "triangles " + std::to_string(at.s.value) + " and " + std::to_string(at.t.value) + " intersect",
+          "repair the self-intersections, or remesh", {at.s, at.t});
+  if (!report.defect_counts.contains(DefectKind::inside_out))
+    for (const SurfacePart& part : report.parts)
+      if (part.closed && part.inside_out())
+        add(DefectKind::inside_out,
+            "the component of triangle " + std::to_string(part.triangles.front().value) +
+                (part.cavity() ? " is a cavity but is oriented outward" : " is oriented inward"),
+            "flip its triangles", {part.triangles.front()});
+}
+
 std::optional<ResolutionAdvice> advise(const SurfaceReport& report) {
   if (!(report.volume > 0)) return std::nullopt;
   ResolutionAdvice advice;
@@ -136,9 +158,12 @@ SurfaceReport examine(const TriMesh& mesh) {
   measure(mesh, report);
   report.unit = guess_unit((report.box.high - report.box.low).maxCoeff());
   report.parts = surface_parts(mesh);
+  for (const SurfacePart& part : report.parts)
+    if (!part.cavity()) ++report.bodies;
   if (!report.usable()) {
     report.holes = find_holes(mesh);
     find_intersections(mesh, report);
+    list_the_others(report);
   }
   TidyReport changes;
   const TriMesh tidy = report.usable() ? mesh : tidied(mesh, changes);

@@ -53,6 +53,7 @@ struct SurfaceReport {
   std::vector<Intersection> intersections;  ///< the first ones, found also where the connectivity is broken
   bool more_intersections = false;          ///< there are more than are listed
   std::vector<SurfacePart> parts;
+  std::size_t bodies = 0;  ///< parts that bound a volume from outside; a scene takes one
   std::map<DefectKind, std::size_t> defect_counts;  ///< each up to most_counted
   std::vector<MeshDefect> defects;         ///< empty: a scene can use the mesh as it is (find_defects)
   std::optional<ResolutionAdvice> advice;  ///< none where there is no volume

@@ -12,6 +12,8 @@ class FeatureLines {
  public:
   enum class Kind { free, crease, corner };
 
+  /// None.
+  FeatureLines() = default;
   /// Edges where the normals differ by more than `angle` [rad], in connected lines whose total length is at
   /// least `shortest_line` [m]. Nodes where lines end, meet or turn by more than `angle` are corners and stay
   /// where they are.

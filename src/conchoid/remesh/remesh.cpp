@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/remesh/decimate.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
@@ -69,8 +71,10 @@ class Remesher {
   void flip_edges() {
     for (int pass = 0; pass < 4; ++pass) {
       bool changed = false;
-      for (const Edge& e : mesh_.edges())
+      for (const Edge& e : mesh_.edges()) {
+        throw_if_interrupted();
         if (mesh_.has_edge(e.a, e.b) && flip_improves(e)) changed = mesh_.flip(e) || changed;
+      }
       if (!changed) return;
     }
   }
@@ -152,6 +156,7 @@ class Remesher {
       Edge edge;
     };
     std::vector<Entry> entries;
+    throw_if_interrupted();
     for (const Edge& e : mesh_.edges())
       if (const double length = relative_length(e); length > low && length < high)
         entries.push_back({length, e});
@@ -310,6 +315,7 @@ class Remesher {
 /// wanted area are a little longer than what comes out, which the feedback evens out.
 void remesh_isotropically(Remesher& remesher, std::size_t target) {
   constexpr int most_rounds = 16, settled_rounds = 6;
+  Progress progress("rounds of remeshing, at most", most_rounds);
   for (int round = 0; round < most_rounds; ++round) {
     remesher.split_long_edges();
     remesher.collapse_short_edges();
@@ -318,6 +324,7 @@ void remesh_isotropically(Remesher& remesher, std::size_t target) {
       remesher.smooth();
     const double ratio = static_cast<double>(remesher.mesh().triangle_count()) / static_cast<double>(target);
     if (round >= settled_rounds && std::abs(ratio - 1) < 0.03) break;
+    progress.advance();
     if (round >= 2) remesher.set_edge(remesher.edge() * std::clamp(std::sqrt(ratio), 0.8, 1.25));
   }
   remesher.flip_edges();
@@ -329,6 +336,7 @@ double one_way_distance(const TriMesh& from, const ClosestPointTree& to) {
   for (const Vec3& x : from.positions)
     look(x);
   for (std::size_t t = 0; t < from.triangle_count(); ++t) {
+    throw_if_interrupted();
     const Triangle x = from.triangle(TriId(t));
     look(centroid(from, TriId(t)));
     for (std::size_t k = 0; k < 3; ++k)

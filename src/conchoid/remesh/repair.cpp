@@ -9,8 +9,11 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/numbers.hpp"
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
+#include "conchoid/remesh/decimate.hpp"
+#include "conchoid/remesh/editable_mesh.hpp"
 #include "conchoid/remesh/fill_holes.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/remesh/voxel_surface.hpp"
@@ -57,31 +60,47 @@ void require_lattice_that_fits(const Box& box, double voxel) {
                      " lattice points, more than 600³; use a larger voxel");
 }
 
+TriMesh simplified(const TriMesh& fine, const TriMesh& shape, double voxel) {
+  constexpr double tolerance = 1.0 / 50, longest_edge = 32, cell = 4;  // in voxels
+  EditableMesh mesh(fine, cell * voxel);
+  simplify(mesh, shape, tolerance * voxel, longest_edge * voxel);
+  return mesh.compact();
+}
+
 void repair_by_level_set(const TriMesh& tidy, double voxel, Repair& repair) {
   const std::vector<BoundaryLoop> loops = boundary_loops(tidy);
   const TriMesh closed = holes_filled(tidy, loops);
   require_lattice_that_fits(bounding_box(closed), voxel);
+  Progress progress("steps of the level set", 4);
   const InsideLattice lattice = inside_lattice(closed, voxel);
+  progress.advance();
   repair.method = RepairMethod::level_set;
   repair.voxel = voxel;
   repair.lattice = lattice.size;
   repair.filled_holes = loops.size();
   repair.mesh = lattice_boundary(lattice, closed);
+  progress.advance();
   repair.dropped_specks = drop_specks(repair.mesh, voxel);
+  repair.lattice_triangles = repair.mesh.triangle_count();
   if (repair.mesh.corners.empty())
     throw ComputationError("the surface bounds no volume that a voxel of " + shortest(voxel) +
                            " m could see; use a smaller voxel, or give the surface a thickness");
+  repair.mesh = simplified(repair.mesh, closed, voxel);
+  progress.advance();
   repair.volume_before = enclosed_volume(closed);
   repair.moved = farthest_node(repair.mesh, closed);
   repair.lost = farthest_node(tidy, repair.mesh);
+  progress.advance();
 }
 
 }  // namespace
 
 RepairMethod needed_repair(const TriMesh& mesh) {
   if (find_defects(mesh, 1).empty()) return RepairMethod::none;
-  TidyReport changes;
-  return find_defects(tidied(mesh, changes), 1).empty() ? RepairMethod::tidying : RepairMethod::level_set;
+  TidyReport tidying;
+  if (find_defects(tidied(mesh, tidying), 1).empty()) return RepairMethod::tidying;
+  MendReport mending;
+  return find_defects(mended(mesh, mending), 1).empty() ? RepairMethod::mending : RepairMethod::level_set;
 }
 
 double default_voxel(const TriMesh& mesh) {
@@ -94,24 +113,29 @@ Repair repaired(const TriMesh& mesh, double voxel) {
     throw InputError("there are no triangles to repair; export a triangulated surface");
   Repair repair;
   repair.mesh = mesh;
-  if (!find_defects(mesh, 1).empty()) {
-    repair.mesh = tidied(mesh, repair.tidying);
-    repair.method = RepairMethod::tidying;
-    repair.volume_before = enclosed_volume(repair.mesh);
-    if (!find_defects(repair.mesh, 1).empty()) {
-      const TriMesh tidy = std::move(repair.mesh);
+  if (find_defects(mesh, 1).empty()) {
+    repair.volume_before = repair.volume_after = enclosed_volume(mesh);
+    return repair;
+  }
+  if (!(default_voxel(mesh) > 0))
+    throw InputError("all triangles lie in one point; there is no surface to repair");
+  const TriMesh tidy = tidied(mesh, repair.tidying);
+  if (tidy.corners.empty()) throw ComputationError("no triangle has an area; there is no surface to repair");
+  repair.mesh = tidy;
+  repair.method = RepairMethod::tidying;
+  repair.volume_before = enclosed_volume(holes_filled(tidy, boundary_loops(tidy)));
+  if (!find_defects(repair.mesh, 1).empty()) {
+    if (voxel == 0) repair.mesh = mended(mesh, repair.mending);
+    repair.method = RepairMethod::mending;
+    if (voxel != 0 || !find_defects(repair.mesh, 1).empty()) {
       if (voxel == 0) voxel = default_voxel(mesh);
-      if (!(voxel > 0)) throw InputError("all triangles lie in one point; there is no surface to repair");
-      if (tidy.corners.empty())
-        throw ComputationError("no triangle has an area; there is no surface to repair");
+      repair.mending = {};
       repair_by_level_set(tidy, voxel, repair);
       const std::vector<MeshDefect> left = find_defects(repair.mesh, 1);
       if (!left.empty())
         throw ComputationError("the repaired surface still has a defect (" + left.front().what +
                                "); try another voxel");
     }
-  } else {
-    repair.volume_before = enclosed_volume(mesh);
   }
   repair.volume_after = enclosed_volume(repair.mesh);
   return repair;

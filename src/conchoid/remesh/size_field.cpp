@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include "conchoid/core/interrupt.hpp"
 
 namespace conchoid {
 namespace {
@@ -48,6 +49,7 @@ SizeField::SizeField(const TriMesh& samples, double edge)
   const auto normals = node_normals(samples);
   const double largest = edge / edges_per_radius;
   for (std::size_t i = 0; i < samples.node_count(); ++i) {
+    throw_if_interrupted();
     const NodeId n(i);
     const double radius = touching_ball(surface_, samples.positions[n], -normals[n], largest);
     size_[n] = std::clamp(radius / largest, smallest_size, 1.0);

@@ -6,52 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/mesh/place.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
+#include "conchoid/remesh/flat_triangles.hpp"
 
 namespace conchoid {
 namespace {
 
-constexpr double flattest_triangle = 1e-10;  // height over longest edge, as in validate.cpp
-
-std::size_t merge_equal_nodes(TriMesh& mesh) {
-  const IdVector<NodeId, NodeId> kept = first_at_place(mesh);
-  std::size_t merged = 0;
-  for (std::size_t n = 0; n < kept.size(); ++n)
-    merged += kept[NodeId(n)] != NodeId(n);
-  for (auto& c : mesh.corners)
-    for (NodeId& n : c)
-      n = kept[n];
-  return merged;
-}
-
-bool has_area(const TriMesh& mesh, TriId t) {
+bool is_useful(const TriMesh& mesh, TriId t, bool flat_ones_are_useless) {
   const auto& c = mesh.corners[t];
-  return c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && flatness(mesh.triangle(t)) > flattest_triangle;
-}
-
-std::size_t drop_useless_triangles(TriMesh& mesh) {
-  std::vector<std::pair<std::array<NodeId, 3>, TriId>> keys;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (!has_area(mesh, TriId(t))) continue;
-    keys.emplace_back(mesh.corners[TriId(t)], TriId(t));
-    std::sort(keys.back().first.begin(), keys.back().first.end());
-  }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(
-      std::unique(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
-      keys.end());
-  std::vector<TriId> kept;
-  for (const auto& key : keys)
-    kept.push_back(key.second);
-  std::sort(kept.begin(), kept.end());
-  const std::size_t removed = mesh.triangle_count() - kept.size();
-  IdVector<TriId, std::array<NodeId, 3>> corners;
-  for (TriId t : kept)
-    corners.push_back(mesh.corners[t]);
-  mesh.corners = std::move(corners);
-  return removed;
+  if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return false;
+  return !flat_ones_are_useless || flatness(mesh.triangle(t)) > flattest_triangle;
 }
 
 void turn(std::array<NodeId, 3>& corners) {
@@ -92,6 +59,42 @@ IdVector<TriId, std::vector<Link>> links(const TriMesh& mesh) {
   return result;
 }
 
+}  // namespace
+
+std::size_t merge_equal_nodes(TriMesh& mesh) {
+  const IdVector<NodeId, NodeId> kept = first_at_place(mesh);
+  std::size_t merged = 0;
+  for (std::size_t n = 0; n < kept.size(); ++n)
+    merged += kept[NodeId(n)] != NodeId(n);
+  for (auto& c : mesh.corners)
+    for (NodeId& n : c)
+      n = kept[n];
+  return merged;
+}
+
+std::size_t drop_useless_triangles(TriMesh& mesh, bool flat_ones) {
+  std::vector<std::pair<std::array<NodeId, 3>, TriId>> keys;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!is_useful(mesh, TriId(t), flat_ones)) continue;
+    keys.emplace_back(mesh.corners[TriId(t)], TriId(t));
+    std::sort(keys.back().first.begin(), keys.back().first.end());
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(
+      std::unique(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+      keys.end());
+  std::vector<TriId> kept;
+  for (const auto& key : keys)
+    kept.push_back(key.second);
+  std::sort(kept.begin(), kept.end());
+  const std::size_t removed = mesh.triangle_count() - kept.size();
+  IdVector<TriId, std::array<NodeId, 3>> corners;
+  for (TriId t : kept)
+    corners.push_back(mesh.corners[t]);
+  mesh.corners = std::move(corners);
+  return removed;
+}
+
 std::size_t drop_unused_nodes(TriMesh& mesh) {
   IdVector<NodeId, char> used(mesh.node_count());
   for (const auto& c : mesh.corners)
@@ -109,12 +112,22 @@ std::size_t drop_unused_nodes(TriMesh& mesh) {
   return removed;
 }
 
-}  // namespace
+std::size_t turn_parts(TriMesh& mesh) {
+  std::size_t turned = 0;
+  for (const SurfacePart& part : surface_parts(mesh))
+    if (part.inside_out()) {
+      for (TriId t : part.triangles)
+        turn(mesh.corners[t]);
+      turned += part.triangles.size();
+    }
+  return turned;
+}
 
 void orient_neighbours_alike(TriMesh& mesh) {
   const auto neighbours = links(mesh);
   IdVector<TriId, char> seen(mesh.triangle_count()), turned(mesh.triangle_count());
   for (std::size_t first = 0; first < mesh.triangle_count(); ++first) {
+    throw_if_interrupted();
     if (seen[TriId(first)]) continue;
     std::vector<TriId> patch = {TriId(first)};
     seen[TriId(first)] = 1;
@@ -141,10 +154,7 @@ TriMesh tidied(const TriMesh& mesh, TidyReport& report) {
   report.removed_triangles = drop_useless_triangles(out);
   const auto before = out.corners;
   orient_neighbours_alike(out);
-  for (const SurfacePart& part : surface_parts(out))
-    if (part.inside_out())
-      for (TriId t : part.triangles)
-        turn(out.corners[t]);
+  turn_parts(out);
   report.turned_triangles = 0;
   for (std::size_t t = 0; t < before.size(); ++t)
     report.turned_triangles += before[TriId(t)] != out.corners[TriId(t)];

@@ -20,6 +20,16 @@ struct TidyReport {
 /// dropped. What is left to do — holes, crowded edges, intersections — find_defects tells.
 TriMesh tidied(const TriMesh& mesh, TidyReport& report);
 
+/// Nodes of equal coordinates become the one of lowest id; returns how many did. Ids stay.
+std::size_t merge_equal_nodes(TriMesh& mesh);
+/// Drops triangles that use a node twice, and all but the first of those with the same nodes; without area,
+/// too, if asked for. Returns how many.
+std::size_t drop_useless_triangles(TriMesh& mesh, bool flat_ones = true);
+/// Drops nodes without triangles and numbers the others anew in their order. Returns how many.
+std::size_t drop_unused_nodes(TriMesh& mesh);
+/// Turns over parts that are inside-out: bodies inward, cavities outward. Returns how many triangles.
+std::size_t turn_parts(TriMesh& mesh);
+
 /// Orients neighbours across edges of two triangles alike, as the larger part of the area of each patch that
 /// such edges hold together is. Ids stay.
 void orient_neighbours_alike(TriMesh& mesh);

@@ -5,15 +5,15 @@
 #include <map>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/winding_number.hpp"
+#include "conchoid/remesh/flat_triangles.hpp"
 
 namespace conchoid {
 namespace {
-
-constexpr double flattest_triangle = 1e-10;  // height over longest edge
 
 /// "triangle 4" …, for messages.
 template <class IdType>
@@ -100,7 +100,10 @@ std::vector<Side> sorted_sides(const TriMesh& mesh) {
       const auto& c = mesh.corners[TriId(t)];
       sides.push_back({Edge(c[k], c[(k + 1) % 3]), c[k], TriId(t)});
     }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) { return x.edge < y.edge; });
+  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    throw_if_interrupted();
+    return x.edge < y.edge;
+  });
   return sides;
 }
 
@@ -143,6 +146,7 @@ IdVector<NodeId, std::vector<TriId>> stars(const TriMesh& mesh) {
 void check_nodes(const TriMesh& mesh, Defects& defects) {
   const auto star = stars(mesh);
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
+    throw_if_interrupted();
     const auto& triangles = star[NodeId(n)];
     if (triangles.empty()) {
       defects.add(DefectKind::unused_node, "node " + std::to_string(n) + " belongs to no triangle",
@@ -226,7 +230,7 @@ void check_orientation(const TriMesh& mesh, Defects& defects) {
       continue;
     }
     int depth = 0;
-    for (std::size_t q = 0; q < parts.size(); ++q)
+    for (std::size_t q = 0; q < parts.size(); ++q, throw_if_interrupted())
       if (q != p && std::abs(winding_number(parts[q], parts[p].positions.front())) > 0.5) ++depth;
     if ((volume > 0) != (depth % 2 == 0))
       defects.add(DefectKind::inside_out,
@@ -241,7 +245,7 @@ std::vector<MeshDefect> defects_of(const TriMesh& mesh, bool is_body, std::size_
   if (!defects.none()) return defects.take();
   check_duplicates(mesh, defects);
   check_edges(mesh, !is_body, defects);
-  if (defects.none()) check_nodes(mesh, defects);
+  check_nodes(mesh, defects);
   check_shapes(mesh, defects);
   if (!defects.none()) return defects.take();
   check_intersections(mesh, defects);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <unordered_map>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 
@@ -83,6 +83,7 @@ void cross_lines(const TriMesh& mesh, TriId t, const InsideLattice& lattice, std
 std::vector<std::vector<TriId>> triangles_of_rows(const TriMesh& mesh, const InsideLattice& lattice) {
   std::vector<std::vector<TriId>> rows(lattice.size[1]);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    throw_if_interrupted();
     const Triangle x = mesh.triangle(TriId(t));
     const double low = std::min({x[0].y(), x[1].y(), x[2].y()}),
                  high = std::max({x[0].y(), x[1].y(), x[2].y()});
@@ -120,10 +121,15 @@ class BoundaryBuilder {
   BoundaryBuilder(const InsideLattice& lattice, const TriMesh& surface) : lattice_(lattice), tree_(surface) {}
 
   TriMesh build() {
-    for (std::size_t k = 0; k + 1 < lattice_.size[2]; ++k)
-      for (std::size_t j = 0; j + 1 < lattice_.size[1]; ++j)
+    const std::size_t edges_of_layer = ways * lattice_.size[0] * lattice_.size[1];
+    for (auto& ids : ids_)
+      ids.assign(edges_of_layer, NodeId());
+    for (std::size_t k = 0; k + 1 < lattice_.size[2]; ++k) {
+      std::fill(ids_[(k + 1) % 2].begin(), ids_[(k + 1) % 2].end(), NodeId());
+      for (std::size_t j = 0; j + 1 < lattice_.size[1]; ++j, throw_if_interrupted())
         for (std::size_t i = 0; i + 1 < lattice_.size[0]; ++i)
           cut_cube(lattice_.index(i, j, k));
+    }
     place_nodes();
     return std::move(mesh_);
   }
@@ -183,9 +189,12 @@ class BoundaryBuilder {
     const std::size_t row = lattice_.size[0], layer = row * lattice_.size[1];
     const std::size_t way =
         (step >= layer ? 4 : 0) + (step % layer >= row ? 2 : 0) + (step % row != 0 ? 1 : 0);
-    const auto [found, fresh] = ids_.try_emplace(8 * low + way, NodeId(edges_.size()));
-    if (fresh) edges_.push_back({in, out});
-    return found->second;
+    NodeId& id = ids_[low / layer % 2][ways * (low % layer) + way];
+    if (!id.valid()) {
+      id = NodeId(edges_.size());
+      edges_.push_back({in, out});
+    }
+    return id;
   }
 
   void place_nodes() {
@@ -207,6 +216,7 @@ class BoundaryBuilder {
     };
     mesh_.positions.reserve(edges_.size());
     for (const LatticeEdge& edge : edges_) {
+      throw_if_interrupted();
       constexpr double closest = 0.05;
       const double d_in = distance(edge.in), d_out = distance(edge.out);
       const double s = d_in + d_out > 0 ? std::clamp(d_in / (d_in + d_out), closest, 1 - closest) : 0.5;
@@ -218,7 +228,8 @@ class BoundaryBuilder {
   const InsideLattice& lattice_;
   ClosestPointTree tree_;
   TriMesh mesh_;
-  std::unordered_map<std::size_t, NodeId> ids_;
+  static constexpr std::size_t ways = 8;    ///< to go on from a lattice point
+  std::array<std::vector<NodeId>, 2> ids_;  ///< of edges from points of the layers being cut, even and odd
   std::vector<LatticeEdge> edges_;
 };
 

@@ -1,10 +1,16 @@
 #include "conchoid/sim/body.hpp"
 
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/core/numbers.hpp"
 #include "conchoid/formats/formats.hpp"
+#include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/models.hpp"
+#include "conchoid/remesh/examine.hpp"
 #include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
+#include "conchoid/remesh/weld.hpp"
 
 namespace conchoid {
 namespace {
@@ -25,17 +31,6 @@ Body with_settings(Body body, const BodySettings& settings) {
   return with_elements(std::move(body), std::move(elements));
 }
 
-SurfaceAttributes attributes_of(const SurfaceAttributes& all, const std::vector<TriId>& faces) {
-  SurfaceAttributes out;
-  out.materials = all.materials;
-  for (const TriId t : faces) {
-    if (!all.normal.empty()) out.normal.push_back(all.normal[t.index()]);
-    if (!all.uv.empty()) out.uv.push_back(all.uv[t.index()]);
-    if (!all.material.empty()) out.material.push_back(all.material[t.index()]);
-  }
-  return out;
-}
-
 }  // namespace
 
 Body with_elements(Body body, TriMesh surface) {
@@ -53,10 +48,26 @@ Body with_elements(Body body, TriMesh surface) {
 }
 
 Body body_from_file(const std::filesystem::path& path, const BodySettings& settings) {
-  AttributedMesh read = read_surface(path);
-  require_valid_body(read.mesh, path.string());
+  WeldReport weld;
+  AttributedMesh read = welded_if_it_helps(read_surface(path), weld);
+  try {
+    require_valid_body(read.mesh, path.string());
+  } catch (const InputError& error) {
+    throw InputError(std::string(error.what()) + "\n  conchoid check " + path.string() +
+                     " --repair --out FIXED.ply mends what can be mended");
+  }
   Body body;
   body.name = path.string();
+  const auto warn = [&](const std::string& text) {
+    body.warnings.push_back(path.string() + ": " + text);
+    warning(body.warnings.back());
+  };
+  if (weld.nodes > 0) warn(weld.text());
+  const Box box = bounding_box(read.mesh);
+  const UnitGuess unit = guess_unit((box.high - box.low).maxCoeff());
+  if (settings.guess_unit && unit.scale != 1)
+    warn(unit.why + "; set body.scale = " + shortest(unit.scale) +
+         ", or body.scale = 1.0 if they are metres");
   body.detailed = std::move(read.mesh);
   body.attributes = std::move(read.attributes);
   return with_settings(std::move(body), settings);

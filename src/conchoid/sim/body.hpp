@@ -29,6 +29,7 @@ struct Body {
   std::vector<Region> regions;   ///< of `surface`
   std::vector<TriMesh> cracks;   ///< sheets that are there from the start; they may stick out
   MaterialFrame material;
+  std::vector<std::string> warnings;  ///< what was said when it was made
 
   bool infinite() const { return surface.corners.empty(); }
 };
@@ -36,9 +37,10 @@ struct Body {
 struct BodySettings {
   std::optional<int> remesh;  ///< boundary elements wanted; none: the mesh as it is
   double scale = 1;           ///< factor on all coordinates
+  bool guess_unit = false;    ///< warn of a file that is hardly in metres
 };
 
-/// Reads a surface. Throws InputError for a mesh that bounds no body, with its defects.
+/// Reads a surface; loose seams are welded (remesh/weld.hpp), with a warning. Throws InputError for a mesh that bounds no body, with its defects.
 Body body_from_file(const std::filesystem::path& path, const BodySettings& settings = {});
 /// A built-in model with its regions and crack (mesh/models.hpp). Throws InputError for another name.
 Body body_from_model(const std::string& name, const BodySettings& settings = {});

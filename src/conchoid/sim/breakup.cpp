@@ -240,7 +240,7 @@ void Breakup::State::end_without_chips(StopReason reason) {
 
 void Breakup::State::end_first(StopReason reason) {
   outcome = reason;
-  if (body->infinite()) return;
+  if (body->infinite() || reason == StopReason::interrupted) return;  // then there is no time to cut it
   Pieces cut = cut_into_pieces(*fracture, output);
   const std::size_t count = cut.fragments.size();
   const bool goes_on = run.after_separation == AfterSeparation::go_on;
@@ -261,7 +261,7 @@ void Breakup::State::end_first(StopReason reason) {
 }
 
 void Breakup::State::end_piece() {
-  if (!grown()) return;
+  if (!grown() || interrupted()) return;
   Pieces cut = cut_into_pieces(*fracture, output);
   if (!are_solids(cut.fragments)) {
     warnings.push_back(
@@ -347,14 +347,23 @@ StopReason Breakup::run(int limit, const std::function<void()>& progress) {
   const auto end = [&](StopReason reason) {
     s.stop = reason;
     s.waiting.clear();
-    if (!s.ended) s.end_body(reason);
+    try {
+      if (!s.ended) s.end_body(reason);
+    } catch (const Interrupted&) {  // there is no time to cut it
+      s.stop = StopReason::interrupted;
+    }
     s.waiting.clear();
-    return reason;
+    return *s.stop;
   };
   for (;;) {
     if (s.stop) return *s.stop;
     if (interrupted()) return end(StopReason::interrupted);
-    const StepReport report = step();
+    StepReport report;
+    try {
+      report = step();
+    } catch (const Interrupted&) {  // in the middle of a frame: the ones before stay
+      return end(StopReason::interrupted);
+    }
     if (progress) progress();
     if (report.stop) return *report.stop;
     if (s.frame >= limit) return end(StopReason::frame_limit);
@@ -381,7 +390,14 @@ std::size_t Breakup::triangles() const {
 Pieces Breakup::take_pieces() {
   State& s = *state_;
   Pieces out = s.pieces ? s.pieces->take() : Pieces{};
-  if (!s.pieces) out.crack = crack_surface(*s.fracture);
+  if (!s.pieces) {
+    const bool cut_short = s.stop == StopReason::interrupted;
+    out.crack = cut_short ? swept_crack(*s.fracture) : crack_surface(*s.fracture);
+    if (cut_short && !s.body->infinite())
+      out.warnings.push_back(
+          "stopped before the body was cut: there are no pieces, and crack.ply holds the surface "
+          "as swept; conchoid run --resume goes on from here");
+  }
   out.warnings.insert(out.warnings.end(), s.warnings.begin(), s.warnings.end());
   return out;
 }

@@ -111,6 +111,7 @@ struct Fracture::State {
   std::optional<BodyCut> parted;  // when it separated
 
   bool solved() const { return !predictor && carried == 0; }
+  TriMesh swept_surface() const;
   std::vector<TriMesh> visible_sheets() const;
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
@@ -432,14 +433,21 @@ std::size_t Fracture::cracks() const {
 std::vector<TriMesh> Fracture::visible_sheets() const {
   return state_->visible_sheets();
 }
+TriMesh Fracture::swept_surface() const {
+  return state_->swept_surface();
+}
 const BodyCut* Fracture::parted() const {
   return state_->parted ? &*state_->parted : nullptr;
 }
 
-std::vector<TriMesh> Fracture::State::visible_sheets() const {
+TriMesh Fracture::State::swept_surface() const {
   FineFront finished = visible ? *visible : fine;
   if (!crack.sheet.fronts.empty()) finished.finish();
-  const TriMesh& all = finished.surface();
+  return finished.surface();
+}
+
+std::vector<TriMesh> Fracture::State::visible_sheets() const {
+  const TriMesh all = swept_surface();
   const std::vector<int> part = connected_parts(all);
   std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
   std::vector<NodeId> moved(all.node_count());

@@ -56,6 +56,13 @@ TriMesh crack_surface(const Fracture& fracture) {
   return crack;
 }
 
+TriMesh swept_crack(const Fracture& fracture) {
+  TriMesh crack = fracture.swept_surface();
+  for (Vec3& x : crack.positions)
+    x += fracture.body().origin;
+  return crack;
+}
+
 void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& output) {
   const double volume = enclosed_volume(body.detailed);
   const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / volume); };

@@ -30,4 +30,7 @@ void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& 
 /// The visible crack surface alone, trimmed to the body: for runs whose pieces nobody asks for.
 TriMesh crack_surface(const Fracture& fracture);
 
+/// The same as it was swept, neither trimmed nor unfolded: for runs that were stopped.
+TriMesh swept_crack(const Fracture& fracture);
+
 }  // namespace conchoid

@@ -8,6 +8,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/initial_cracks.hpp"
+#include "conchoid/sim/resolution_floor.hpp"
 
 namespace conchoid {
 namespace {
@@ -50,6 +51,17 @@ void add_cracks(const Scene& scene, const std::vector<TriMesh>& of_body, Prepare
                      ": an infinite body without a crack has nothing to compute; add a [[crack]]");
 }
 
+// Mean section across the longest extent, or what cracks have from the start.
+void require_resolution(const Scene& scene, const PreparedBody& body, double area) {
+  const bool of_crack = !scene.resolution.surface;
+  if (body.crack_edge > 0)
+    require_affordable(scene.resolution.where, "resolution.crack", body.crack_edge, area,
+                       most_crack_triangles);
+  if (body.surface_edge > 0)
+    require_affordable(scene.resolution.where, of_crack ? "resolution.crack / 20" : "resolution.surface",
+                       body.surface_edge, area, most_surface_triangles);
+}
+
 void require_one_body(const Scene& scene, const TriMesh& surface) {
   const std::vector<int> part = connected_parts(surface);
   std::vector<double> volume(1 + *std::max_element(part.begin(), part.end()), 0.0);
@@ -59,14 +71,16 @@ void require_one_body(const Scene& scene, const TriMesh& surface) {
   }
   const auto bodies = std::count_if(volume.begin(), volume.end(), [](double v) { return v > 0; });
   if (bodies != 1)
-    throw InputError(fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time",
-                                 scene.body.where, bodies));
+    throw InputError(
+        fmt::format("{}: the mesh holds {} separate bodies; simulate them one at a time: conchoid "
+                    "check FILE --split DIR writes them apart",
+                    scene.body.where, bodies));
 }
 
 }  // namespace
 
 Body scene_body(const Scene& scene) {
-  const BodySettings settings{scene.body.remesh, scene.body.scale};
+  const BodySettings settings{scene.body.remesh, scene.body.scale, !scene.body.scale_given};
   return scene.body.model.empty() ? body_from_file(scene.body.mesh, settings)
                                   : body_from_model(scene.body.model, settings);
 }
@@ -86,7 +100,12 @@ PreparedBody prepare(const Scene& scene, Body body) {
   move(out.detailed, -out.origin);
   out.material = scene.material;
   out.crack_edge = scene.resolution.crack.value_or(default_crack_edge(out.surface, scene.cracks));
-  if (!out.infinite()) require_one_body(scene, out.surface);
+  out.surface_edge = scene.resolution.surface.value_or(out.crack_edge / 20);
+  if (!out.infinite()) {
+    require_one_body(scene, out.surface);
+    const Box box = bounding_box(out.surface);
+    require_resolution(scene, out, enclosed_volume(out.surface) / (box.high - box.low).maxCoeff());
+  }
   const FieldFrame frame{body.material.turn, body.material.shift, out.pieces.center.value_or(out.origin),
                          out.origin};
   out.toughness = MaterialField(scene.material.toughness_field, frame);
@@ -94,6 +113,9 @@ PreparedBody prepare(const Scene& scene, Body body) {
   add_cracks(scene, body.cracks, out);
   if (!(out.crack_edge > 0)) out.crack_edge = mean_boundary_edge(out.cracks.front());
   out.surface_edge = scene.resolution.surface.value_or(out.crack_edge / 20);
+  if (out.infinite())
+    for (const TriMesh& crack : out.cracks)
+      require_resolution(scene, out, surface_area(crack));
   // What is wrong with the conditions is said before anything is assembled.
   const LoadCase load = load_of(scene, out);
   out.elastic = std::make_shared<const BodyOperator>(

@@ -8,6 +8,7 @@
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/core/undisturbed.hpp"
 #include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/checkpoint.hpp"
 #include "conchoid/sim/load_report.hpp"
@@ -169,9 +170,11 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::string> said = of_scene.warnings;
   const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
   RunResult result;
   RunDocument& doc = result.document = describe(scene, *body, options);
+  doc.warnings = said;
   Breakup breakup(scene, body, breakup_settings(scene, options, method));
   Places places = open_places(breakup.fracture(), scene, options);
   std::optional<FrameWriter> frames;
@@ -198,7 +201,8 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   });
   progress.reset();
   doc.final_triangles = breakup.triangles();
-  take_pieces(breakup, result);
+  const auto finish = [&] { take_pieces(breakup, result); };
+  doc.stop == StopReason::interrupted ? undisturbed(finish) : finish();
   add_load(load, scene.run, doc);
   result.front = front.take();
   result.samples = samples.take();

@@ -11,6 +11,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/material/library.hpp"
 #include "conchoid/mesh/models.hpp"
+#include "conchoid/sim/region_reach.hpp"
 #include "conchoid/sim/scene_parser.hpp"
 #include "conchoid/sim/settings.hpp"
 
@@ -51,6 +52,7 @@ BodySpec read_body(const TomlTable& file, const fs::path& folder) {
     body.mesh = existing_file(*table, "mesh", folder);
   body.remesh = optional_value<int>(*table, "remesh");
   table->read("scale", body.scale);
+  body.scale_given = table->has("scale");
   for (const char* key : {"remesh", "scale"})
     if (body.infinite() && table->has(key))
       table->fail(
@@ -93,6 +95,7 @@ ResolutionSpec read_resolution(const TomlTable& file) {
   if (!table) return resolution;
   table->require_known_keys();
   resolution.crack = optional_value<double>(*table, "crack");
+  resolution.where = table->where();
   resolution.surface = optional_value<double>(*table, "surface");
   if (resolution.crack && resolution.surface && *resolution.surface > *resolution.crack)
     table->fail("surface",
@@ -365,8 +368,8 @@ std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
     if (regions[i].triangles.empty())
       throw InputError(
           fmt::format("{}: the region \"{}\" has no triangles: none has all three vertices in its half "
-                      "spaces, or an earlier region took them; move the half spaces",
-                      scene.regions[i].where, regions[i].name));
+                      "spaces, or an earlier region took them; move the half spaces ({})",
+                      scene.regions[i].where, regions[i].name, reach_text(rules[i], surface)));
   const IdVector<TriId, int> taken = region_of_triangles(surface, regions);
   for (Region region : model_regions) {
     if (find_region(regions, region.name)) continue;

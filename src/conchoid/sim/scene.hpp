@@ -24,6 +24,7 @@ struct BodySpec {
   std::filesystem::path mesh;  ///< absolute, or relative to the working folder; empty: `model` is given
   std::optional<int> remesh;   ///< wanted number of triangles
   double scale = 1;  ///< factor on the coordinates of the body (and of the crack its model comes with)
+  bool scale_given = false;  ///< none: a mesh that is hardly in metres is warned of
   std::string where;
 
   bool infinite() const { return model == "infinite"; }
@@ -45,6 +46,7 @@ struct MaterialSpec {
 struct ResolutionSpec {
   std::optional<double> crack;    ///< r̄ [m]
   std::optional<double> surface;  ///< [m]
+  std::string where = "[resolution]";
 };
 
 struct SceneRegion {

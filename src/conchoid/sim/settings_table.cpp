@@ -65,7 +65,7 @@ const std::vector<Setting>& settings() {
        {},
        0,
        {"cube", "cylinder", "bar", "edge-crack-cube", "infinite"}},
-      {"body", "mesh", file, "", "", "closed surface: .ply, .obj, .stl or .off, coordinates in m"},
+      {"body", "mesh", file, "", "", "closed surface: .ply, .obj, .stl, .off or .glb, coordinates in m"},
       {"body", "remesh", integer, "triangles", "",
        "BEM triangles after remeshing; without it the mesh is used as it is", between(20, 200000)},
       {"body", "scale", number, "", "1.0",
@@ -183,11 +183,13 @@ const std::vector<Setting>& settings() {
       {"resolution", "crack", number, "m", "",
        "r̄, target edge of crack triangles; without it a tenth of the body's size (cube root of the volume) "
        "or, in "
-       "the infinite body, an eighth of the largest crack",
+       "the infinite body, an eighth of the largest crack; refused where a crack across the body would have "
+       "more "
+       "than 1e5 triangles",
        above(0)},
       {"resolution", "surface", number, "m", "",
        "spacing of the markers along the fine front, and with it the detail of the output surface; without "
-       "it crack / 20",
+       "it crack / 20; refused where a crack across the body would have more than 2e7 triangles",
        above(0)},
 
       {"region", "name", text, "", "", "required, unique"},

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/mesh/corners.hpp"
 
 namespace conchoid {
@@ -55,8 +56,12 @@ class SliverRemoval {
     bool changed = badness_ > 0;
     while (changed) {
       changed = false;
+      throw_if_interrupted();
       for (PieceId p = 0; p < pieces_.size(); ++p)
-        if (pieces_[p].alive && is_sliver(pieces_[p]) && remove(p)) changed = true;
+        if (pieces_[p].alive && is_sliver(pieces_[p])) {
+          throw_if_interrupted();
+          changed = remove(p) || changed;
+        }
     }
     write_back();
   }

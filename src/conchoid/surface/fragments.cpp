@@ -7,6 +7,8 @@
 #include <map>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine.hpp"
 #include "conchoid/surface/cut_slivers.hpp"
 #include "conchoid/surface/mass_properties.hpp"
@@ -171,7 +173,8 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const She
   constexpr std::array shares{0.0, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
   std::vector<Piece> fallback;
   std::exception_ptr failure;
-  for (const double share : shares)
+  for (const double share : shares) {
+    throw_if_interrupted();
     try {
       CutPieces cut =
           share == 0 ? cut_piece_once(piece, sheet, how) : cut_piece_once(piece, nudged(sheet, share), how);
@@ -180,6 +183,7 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const She
     } catch (const ComputationError&) {
       failure = std::current_exception();
     }
+  }
   if (fallback.empty()) std::rethrow_exception(failure);
   return fallback;
 }
@@ -234,9 +238,11 @@ std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vect
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
     pieces[0].source.emplace_back(t);
   SheetCut how{0, settings.minimum_volume_fraction * body_volume, true};
+  Progress progress("sheets cut", sheets.size());
   for (const TriMesh& sheet : sheets) {
     pieces = cut_pieces(pieces, sheet, how);
     how.first_triangle += sheet.triangle_count();
+    progress.advance();
   }
   return as_fragments(std::move(pieces), settings, body_volume);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
@@ -95,6 +96,7 @@ class NetworkBuilder {
 
 CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
                           const std::vector<bool>& band) {
+  throw_if_interrupted();
   const Vertices vertices = vertices_of(grid, band);
   const std::vector<std::int32_t>& vertex = vertices.of_cell;
   const std::int32_t count = vertices.count, source = count, sink = count + 1;

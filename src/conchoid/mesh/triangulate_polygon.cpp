@@ -1,4 +1,4 @@
-#include "conchoid/intersect/triangulate_polygon.hpp"
+#include "conchoid/mesh/triangulate_polygon.hpp"
 
 #include <algorithm>
 #include <cmath>
