@@ -97,15 +97,18 @@ PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fr
 
 bool is_loaded(const Scene& scene) {
   const BoundaryCondition* held = nullptr;
+  bool moved = false, alike = true;
   for (const BoundaryCondition& c : scene.boundary) {
     if (c.kind != ConditionKind::displacement) {
       if (!c.value.isZero(0)) return true;
       continue;
     }
-    if (held && held->value != c.value) return true;
+    if (!c.free_traction.isZero(0)) return true;
+    moved = moved || !c.value.isZero(0);
+    alike = alike && (!held || (held->value == c.value && held->held == c.held && held->axes == c.axes));
     held = &c;
   }
-  return false;
+  return moved && !alike;
 }
 
 }  // namespace conchoid

@@ -47,7 +47,7 @@ PreparedBody prepare(const Scene& scene);
 /// conditions of other kinds than those it was prepared for.
 LoadCase load_of(const Scene& scene, const PreparedBody& body);
 
-/// Which quantity the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.
+/// Which components of the displacement the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.
 std::vector<BoundaryKind> kinds_of(const Scene& scene, const PreparedBody& body);
 
 }  // namespace conchoid

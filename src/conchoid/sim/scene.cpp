@@ -27,18 +27,6 @@ std::optional<T> optional_value(const TomlTable& table, std::string_view key) {
   return value;
 }
 
-/// Keys of a table that exclude each other: exactly one must be there. Returns it.
-std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
-                        std::string_view what) {
-  std::vector<std::string_view> given;
-  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](auto key) { return table.has(key); });
-  if (given.empty()) table.fail({}, fmt::format("{} needs one of {}; add it", what, fmt::join(keys, ", ")));
-  if (given.size() > 1)
-    table.fail(given[1], fmt::format("{} has {}; they contradict each other, keep one", what,
-                                     fmt::join(given, " and ")));
-  return given.front();
-}
-
 BodySpec read_body(const TomlTable& file, const fs::path& folder) {
   const auto table = file.table("body");
   if (!table) file.fail({}, "there is no [body]; add it, with model = \"cube\" or mesh = \"file.ply\"");
@@ -124,42 +112,6 @@ void read_regions(const TomlTable& file, Scene& scene) {
         table.fail("name", fmt::format("the region \"{}\" is already defined at {}; rename one of them",
                                        region.rule.name, other.where));
     scene.regions.push_back(std::move(region));
-  }
-}
-
-BoundaryCondition read_condition(const TomlTable& table) {
-  table.require_known_keys();
-  BoundaryCondition condition{.region = {}, .where = table.where()};
-  table.require("region", condition.region);
-  const std::string_view key = one_of(table, {"traction", "force", "displacement", "fixed"}, "[[boundary]]");
-  if (key == "fixed") {
-    bool fixed = false;
-    table.read("fixed", fixed);
-    if (!fixed)
-      table.fail("fixed", "fixed = false says nothing; remove this [[boundary]] or write fixed = true");
-    condition.kind = ConditionKind::displacement;
-    return condition;
-  }
-  condition.kind = key == "traction" ? ConditionKind::traction
-                   : key == "force"  ? ConditionKind::force
-                                     : ConditionKind::displacement;
-  table.read(key, condition.value);
-  return condition;
-}
-
-void read_boundary(const TomlTable& file, Scene& scene) {
-  for (const TomlTable& table : file.tables("boundary")) {
-    BoundaryCondition condition = read_condition(table);
-    if (scene.body.infinite())
-      table.fail(
-          {},
-          "[[boundary]] does not go with model = \"infinite\", which has no surface; use [remote_stress]");
-    require_region(scene, condition.region, table, "region");
-    for (const BoundaryCondition& other : scene.boundary)
-      if (other.region == condition.region)
-        table.fail("region", fmt::format("the region \"{}\" already has a condition at {}; keep one of them",
-                                         condition.region, other.where));
-    scene.boundary.push_back(std::move(condition));
   }
 }
 
@@ -290,6 +242,36 @@ fs::path existing_file(const TomlTable& table, std::string_view key, const fs::p
   return path;
 }
 
+std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
+                        std::string_view what) {
+  std::vector<std::string_view> given;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](auto key) { return table.has(key); });
+  if (given.empty()) table.fail({}, fmt::format("{} needs one of {}; add it", what, fmt::join(keys, ", ")));
+  if (given.size() > 1)
+    table.fail(given[1], fmt::format("{} has {}; they contradict each other, keep one", what,
+                                     fmt::join(given, " and ")));
+  return given.front();
+}
+
+Mat3 read_axes(const TomlTable& table, std::string_view name) {
+  constexpr double square = 1e-6;  // cosine of axes that count as being at right angles
+  Mat3 out = Mat3::Identity();
+  std::vector<std::vector<double>> axes;
+  table.read("axes", axes);
+  if (axes.empty()) return out;
+  if (axes.size() != 3)
+    table.fail("axes", fmt::format("{}.axes holds {} vectors, but must hold 3", name, axes.size()));
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis(axes[k][0], axes[k][1], axes[k][2]);
+    if (axis.isZero(0)) table.fail("axes", fmt::format("{}.axes holds (0, 0, 0); give directions", name));
+    out.col(k) = axis / axis.norm();
+  }
+  const Mat3 products = out.transpose() * out;
+  if ((products - Mat3::Identity()).cwiseAbs().maxCoeff() > square)
+    table.fail("axes", fmt::format("{}.axes are not at right angles; correct them", name));
+  return out;
+}
+
 /// Keys that belong to another kind are contradictions.
 void require_keys_of_kind(
     const TomlTable& table, std::string_view name, const std::string& kind,
@@ -353,6 +335,13 @@ Scene parse_scene(std::string_view text, const std::string& name, const fs::path
 
 Scene read_scene(const fs::path& path) {
   return parse_scene(read_text_file(path), path.string(), path.parent_path());
+}
+
+std::vector<Vec3> BoundaryCondition::held_directions() const {
+  std::vector<Vec3> directions;
+  for (int k = 0; k < 3; ++k)
+    if (held[static_cast<std::size_t>(k)]) directions.emplace_back(axes.col(k));
+  return directions;
 }
 
 std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -52,13 +53,21 @@ struct SceneRegion {
   std::string where;
 };
 
-enum class ConditionKind { traction, force, displacement };
+enum class ConditionKind { traction, force, pressure, displacement };
 
+/// What acts on a region. Vectors are in the scene's axes: those of the file are turned when it is read.
 struct BoundaryCondition {
   std::string region;
   ConditionKind kind = ConditionKind::traction;
   Vec3 value = Vec3::Zero();  ///< [Pa], [N] or [m]; fixed = true is a displacement of zero
   std::string where;
+  std::array<bool, 3> held{true, true, true};  ///< displacement: along which of the axes it is prescribed
+  Mat3 axes = Mat3::Identity();                ///< displacement: columns, orthonormal
+  Vec3 free_traction = Vec3::Zero();           ///< displacement: in the other directions [Pa]
+  double pressure = 0;                         ///< pressure: along the inward normal [Pa]
+  Vec3 moment = Vec3::Zero();                  ///< force: about the centroid of the region [N m]
+
+  std::vector<Vec3> held_directions() const;
 };
 
 enum class CrackKind { disc, ellipse, rectangle, mesh };
