@@ -10,17 +10,9 @@
 #include "conchoid/bem/pair_blocks.hpp"
 
 namespace conchoid {
-namespace {
-
-struct MassProperties {
-  double volume = 0;
-  Vec3 center = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();  // about the centre, for density 1
-};
-
 // Tetrahedra from a point near the body to every triangle.
-MassProperties mass_properties(const TriMesh& surface) {
-  MassProperties p;
+VolumeMoments volume_moments(const TriMesh& surface) {
+  VolumeMoments p;
   const Vec3 origin = bounding_box(surface).center();
   Mat3 second = Mat3::Zero();  // ∫ x xᵀ
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
@@ -39,10 +31,8 @@ MassProperties mass_properties(const TriMesh& surface) {
   return p;
 }
 
-}  // namespace
-
 Resultant resultant(const TriMesh& surface, const BoundaryData& data) {
-  Resultant r{Vec3::Zero(), Vec3::Zero(), 0, mass_properties(surface).center};
+  Resultant r{Vec3::Zero(), Vec3::Zero(), 0, volume_moments(surface).center};
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
     if (data.kind[t].holds_all()) continue;
     Vec3 f = area_vector(surface, TriId(t)).norm() * data.traction[t];
@@ -57,28 +47,6 @@ Resultant resultant(const TriMesh& surface, const BoundaryData& data) {
 bool balanced(const Resultant& r, const TriMesh& surface) {
   const double tolerance = 1e-6 * r.scale;
   return r.force.norm() <= tolerance && r.moment.norm() <= tolerance * bounding_box(surface).diagonal();
-}
-
-AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const ElasticConstants& m) {
-  const MassProperties p = mass_properties(surface);
-  const Vec3 b = -r.force / p.volume;                            // −ρ a
-  const Mat3 w = -cross_matrix(p.inertia.inverse() * r.moment);  // −ρ α×
-  const double mu = m.shear_modulus();
-  const double lambda = 2 * mu * m.poisson_ratio / (1 - 2 * m.poisson_ratio);
-  const double translation = -1 / (8 * mu + 2 * lambda), rotation = -1 / (10 * mu);
-  const Vec3 center = p.center;
-  AmbientField field;
-  field.displacement = [=](const Vec3& y) -> Vec3 {
-    const Vec3 x = y - center;
-    return (translation * b + rotation * (w * x)) * x.squaredNorm();
-  };
-  field.stress = [=](const Vec3& y) -> Mat3 {
-    const Vec3 x = y - center;
-    const Mat3 gradient =
-        2 * (translation * b + rotation * (w * x)) * x.transpose() + rotation * x.squaredNorm() * w;
-    return lambda * gradient.trace() * Mat3::Identity() + mu * (gradient + gradient.transpose());
-  };
-  return field;
 }
 
 namespace {
@@ -162,7 +130,7 @@ std::vector<RigidMotion> free_motions(const TriMesh& surface, const std::vector<
 
 Resultant unsupported(const TriMesh& surface, const Resultant& r, const std::vector<RigidMotion>& motions) {
   if (motions.size() == 6) return r;
-  const MassProperties p = mass_properties(surface);
+  const VolumeMoments p = volume_moments(surface);
   const auto n = static_cast<Eigen::Index>(motions.size());
   Eigen::MatrixXd R(6, n), M = Eigen::MatrixXd::Zero(6, 6);
   for (Eigen::Index k = 0; k < n; ++k)

@@ -7,6 +7,14 @@
 
 namespace conchoid {
 
+/// Of the body that a closed surface bounds.
+struct VolumeMoments {
+  double volume = 0;            ///< [m³]
+  Vec3 center = Vec3::Zero();   ///< of mass [m]
+  Mat3 inertia = Mat3::Zero();  ///< about the centre, for density 1 [m⁵]
+};
+VolumeMoments volume_moments(const TriMesh& surface);
+
 /// A motion x ↦ v + ω × (x − c) about a centre c that its user knows.
 struct RigidMotion {
   Vec3 v;      ///< [m]
@@ -36,11 +44,6 @@ std::vector<RigidMotion> free_motions(const TriMesh& surface, const std::vector<
 /// is held, zero where everything is; the supports take the rest.
 /// @param motions  free_motions() about r.center
 Resultant unsupported(const TriMesh& surface, const Resultant& r, const std::vector<RigidMotion>& motions);
-
-/// Inertia relief: the stress field that belongs to the rigid-body acceleration which the unbalanced load
-/// causes. Body force b(x) = −ρ (a + α × (x − c)) with F = m a, T = I α; a polynomial field with
-/// div σ + b = 0. The density cancels: only shape and load matter.                     docs/theory.md (B8)
-AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const ElasticConstants& m);
 
 /// Orthonormal rigid motions of every connected part of the surface, as far as its supports leave them: six for a
 /// part that nothing holds. Each is 3·nodes long and zero off its part. They are the null space of the system:

@@ -55,19 +55,32 @@ BoundaryCondition read_condition(const TomlTable& table) {
   BoundaryCondition condition{.region = {}, .where = table.where()};
   table.require("region", condition.region);
   condition.axes = read_axes(table, "boundary");
-  if (table.has("displacement") && !table.has("force") && !table.has("fixed")) {
+  const auto has = [&](const std::vector<std::string_view>& keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](auto key) { return table.has(key); });
+  };
+  if (table.has("displacement") && !has({"force", "moment", "pressure", "fixed"})) {
     condition.kind = ConditionKind::displacement;
     read_displacement(table, condition);
     return condition;
   }
-  const std::string_view key = one_of(table, {"traction", "force", "displacement", "fixed"}, "[[boundary]]");
+  if (has({"force", "moment"}) && !has({"traction", "pressure", "displacement", "fixed"})) {
+    condition.kind = ConditionKind::force;
+    read_vector(table, "force", condition.axes, condition.value);
+    read_vector(table, "moment", condition.axes, condition.moment);
+    return condition;
+  }
+  const std::string_view key =
+      one_of(table, {"traction", "force", "moment", "pressure", "displacement", "fixed"}, "[[boundary]]");
   if (key == "fixed") {
     require_held(table);
     condition.kind = ConditionKind::displacement;
-    return condition;
+  } else if (key == "pressure") {
+    condition.kind = ConditionKind::pressure;
+    table.read("pressure", condition.pressure);
+  } else {
+    condition.kind = ConditionKind::traction;
+    read_vector(table, "traction", condition.axes, condition.value);
   }
-  condition.kind = key == "traction" ? ConditionKind::traction : ConditionKind::force;
-  read_vector(table, key, condition.axes, condition.value);
   return condition;
 }
 
@@ -87,6 +100,22 @@ void read_boundary(const TomlTable& file, Scene& scene) {
                                          condition.region, other.where));
     scene.boundary.push_back(std::move(condition));
   }
+}
+
+void read_body_force(const TomlTable& file, Scene& scene) {
+  const auto table = file.table("body_force");
+  if (!table) return;
+  table->require_known_keys();
+  if (scene.body.infinite())
+    table->fail({}, "[body_force] does not go with model = \"infinite\", which has no weight; remove it");
+  BodyForceSpec& force = scene.body_force;
+  table->read("gravity", force.gravity);
+  table->read("spin", force.spin);
+  if (!table->has("axis_through")) return;
+  if (!table->has("spin"))
+    table->fail("axis_through", "body_force.axis_through goes with `spin`; add that, or remove this");
+  force.on_axis = Vec3::Zero();
+  table->read("axis_through", *force.on_axis);
 }
 
 }  // namespace conchoid

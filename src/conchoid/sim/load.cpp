@@ -3,19 +3,13 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "conchoid/bem/rigid_body.hpp"
+#include "conchoid/bem/body_force.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/sim/prepared_body.hpp"
+#include "conchoid/sim/spread_force.hpp"
 
 namespace conchoid {
 namespace {
-
-double region_area(const TriMesh& surface, const Region& region) {
-  double area = 0;
-  for (TriId t : region.triangles)
-    area += area_vector(surface, t).norm();
-  return area;
-}
 
 // The displacement of nodes, component by component, as conditions prescribe it.
 class PrescribedNodes {
@@ -71,6 +65,27 @@ class PrescribedNodes {
   std::vector<Node> nodes_;
 };
 
+void hold(const TriMesh& surface, const Region& region, const BoundaryCondition& condition,
+          std::size_t number, PrescribedNodes& nodes, BoundaryData& data) {
+  const BoundaryKind kind = BoundaryKind::holding(condition.held_directions());
+  for (TriId t : region.triangles) {
+    data.kind[t.index()] = kind;
+    data.traction[t.index()] = condition.free_traction;
+    for (NodeId node : surface.corners[t])
+      nodes.prescribe(node, number, kind.held(), condition.value);
+  }
+}
+
+void load(const PreparedBody& body, const Region& region, const BoundaryCondition& condition,
+          BoundaryData& data) {
+  LinearTraction given{condition.value, condition.twist, condition.about - body.origin};
+  if (condition.kind == ConditionKind::force) given = spread_force(body.surface, region, condition);
+  for (TriId t : region.triangles)
+    data.traction[t.index()] = condition.kind == ConditionKind::pressure
+                                   ? Vec3(-condition.pressure * unit_normal(body.surface, t))
+                                   : given.at(centroid(body.surface, t));
+}
+
 BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
   BoundaryData data = free_surface(body.surface);
   PrescribedNodes nodes(scene, body.surface);
@@ -80,17 +95,10 @@ BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
     if (!region || region->triangles.empty())
       throw InputError(fmt::format("{}: region '{}' has no triangles; widen its half spaces", condition.where,
                                    condition.region));
-    const BoundaryKind kind = BoundaryKind::holding(condition.held_directions());
-    for (TriId t : region->triangles) {
-      if (condition.kind == ConditionKind::traction) data.traction[t.index()] = condition.value;
-      if (condition.kind == ConditionKind::force)
-        data.traction[t.index()] = condition.value / region_area(body.surface, *region);
-      if (condition.kind != ConditionKind::displacement) continue;
-      data.kind[t.index()] = kind;
-      data.traction[t.index()] = condition.free_traction;
-      for (NodeId node : body.surface.corners[t])
-        nodes.prescribe(node, b, kind.held(), condition.value);
-    }
+    if (condition.kind == ConditionKind::displacement)
+      hold(body.surface, *region, condition, b, nodes, data);
+    else
+      load(body, *region, condition, data);
   }
   for (std::size_t i = 0; i < body.surface.node_count(); ++i)
     data.displacement[NodeId(i)] = nodes.value(NodeId(i));
@@ -138,15 +146,23 @@ std::string motion_text(const PreparedBody& body, const std::vector<RigidMotion>
                   where, loads, motion_text(body, motions, driven)));
 }
 
-// Inertia relief of an unbalanced load: its stress is superposed, and its traction taken off the load.
-AmbientField balance(const Scene& scene, const PreparedBody& body, BoundaryData& data) {
+// The field that belongs to weight and spin, and, where loads are out of balance, to the inertia that relieves them.
+AmbientField body_field(const Scene& scene, const PreparedBody& body, const BoundaryData& data) {
   const TriMesh& surface = body.surface;
-  const Resultant r = resultant(surface, data);
+  const Vec3 center = volume_moments(surface).center;
+  const BodyForceSpec& spec = scene.body_force;
+  BodyForce force = weight_and_spin(center, scene.material.density, spec.gravity, spec.spin,
+                                    spec.on_axis ? Vec3(*spec.on_axis - body.origin) : center);
+  const Resultant r = with_body_force(surface, resultant(surface, data), force);
   const std::vector<RigidMotion> motions = free_motions(surface, data.kind, r.center);
   const Resultant driven = unsupported(surface, r, motions);
-  if (balanced(driven, surface)) return {};
-  if (!scene.run.inertia_relief) refuse_unbalanced(scene, body, driven, motions);
-  return inertia_field(surface, driven, scene.material.elastic());
+  if (!balanced(driven, surface)) {
+    if (!scene.run.inertia_relief) refuse_unbalanced(scene, body, driven, motions);
+    const BodyForce inertia = inertia_force(surface, driven);
+    force.uniform += inertia.uniform;
+    force.turning += inertia.turning;
+  }
+  return particular_field(force, scene.material.elastic());
 }
 
 // What the elements compute is the rest: an ambient field's traction and displacement are taken off the data.
@@ -179,7 +195,7 @@ LoadCase load_of(const Scene& scene, const PreparedBody& body) {
     throw InputError(
         (scene.boundary.empty() ? scene.file : scene.boundary.front().where) +
         ": the conditions hold other triangles than those that the body was prepared for; prepare it again");
-  AmbientField ambient = balance(scene, body, data);
+  AmbientField ambient = body_field(scene, body, data);
   take_off(ambient, body.surface, data);
   return load_case(body.surface, data, std::move(ambient));
 }

@@ -314,6 +314,7 @@ Scene scene_from(const TomlTable& file, const std::string& name, const fs::path&
   scene.resolution = read_resolution(file);
   read_regions(file, scene);
   read_boundary(file, scene);
+  read_body_force(file, scene);
   for (const TomlTable& table : file.tables("crack"))
     scene.cracks.push_back(read_crack(table, folder));
   scene.remote_stress = read_remote_stress(file, scene);

@@ -66,8 +66,17 @@ struct BoundaryCondition {
   Vec3 free_traction = Vec3::Zero();           ///< displacement: in the other directions [Pa]
   double pressure = 0;                         ///< pressure: along the inward normal [Pa]
   Vec3 moment = Vec3::Zero();                  ///< force: about the centroid of the region [N m]
+  Vec3 twist = Vec3::Zero();                   ///< traction: t = value + twist × (x − about) [Pa/m]
+  Vec3 about = Vec3::Zero();                   ///< [m]
 
   std::vector<Vec3> held_directions() const;
+};
+
+/// Forces on every part of the body, with the material's density.
+struct BodyForceSpec {
+  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  Vec3 spin = Vec3::Zero();     ///< ω [rad/s]
+  std::optional<Vec3> on_axis;  ///< a point of the axis [m]; none: the centre of mass
 };
 
 enum class CrackKind { disc, ellipse, rectangle, mesh };
@@ -116,6 +125,7 @@ struct Scene {
   ResolutionSpec resolution;
   std::vector<SceneRegion> regions;
   std::vector<BoundaryCondition> boundary;
+  BodyForceSpec body_force;
   std::vector<CrackSpec> cracks;
   /// Stress at infinity [Pa], for the infinite body.
   Mat3 remote_stress = Mat3::Zero();

@@ -36,6 +36,9 @@ Mat3 read_axes(const TomlTable& table, std::string_view name);
 /// The tables [[boundary]] (boundary_keys.cpp). The scene must have its body and regions.
 void read_boundary(const TomlTable& file, Scene& scene);
 
+/// The table [body_force] (boundary_keys.cpp).
+void read_body_force(const TomlTable& file, Scene& scene);
+
 /// The scene in a parsed file; tables and keys that do not belong to scenes are not looked at.
 Scene scene_from(const TomlTable& file, const std::string& name, const std::filesystem::path& folder);
 

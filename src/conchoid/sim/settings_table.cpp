@@ -40,9 +40,11 @@ const std::vector<SettingTable>& setting_tables() {
        "belongs to the first region that wants it; the regions of a built-in model come after those given "
        "here."},
       {"boundary", true, true,
-       "What acts on a region: one of traction, force, displacement, fixed. Where nothing is said the "
-       "surface "
-       "is free."},
+       "What acts on a region: one of traction, force (with or without a moment), pressure, displacement, "
+       "fixed. "
+       "Where nothing is said the surface is free."},
+      {"body_force", false, true,
+       "What acts on every part of the body. Pieces keep it; one that nothing holds falls without stress."},
       {"crack", true, true, "A crack that is there from the start."},
       {"remote_stress", false, true, "Stress at infinity, for model = \"infinite\"."},
       {"run", false, true, "How the simulation is run."},
@@ -204,6 +206,17 @@ const std::vector<Setting>& settings() {
       {"boundary", "traction", numbers, "Pa", "", "force per area", {}, 3},
       {"boundary", "force", numbers, "N", "", "total force, spread evenly over the region", {}, 3},
       {"boundary",
+       "moment",
+       numbers,
+       "N m",
+       "",
+       "total moment about the centroid of the region, as tractions that grow with the distance from it "
+       "(linear "
+       "bending, twist) and have no resultant force; alone or with force",
+       {},
+       3},
+      {"boundary", "pressure", number, "Pa", "", "along the inward normal; below 0 it pulls"},
+      {"boundary",
        "displacement",
        components,
        "m",
@@ -220,6 +233,31 @@ const std::vector<Setting>& settings() {
        "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]",
        "the three directions, at right angles, of any length, along which the components of this table's "
        "vectors are meant",
+       {},
+       3},
+
+      {"body_force",
+       "gravity",
+       numbers,
+       "m/s²",
+       "[0.0, 0.0, 0.0]",
+       "acceleration: weight is this times material.density",
+       {},
+       3},
+      {"body_force",
+       "spin",
+       numbers,
+       "rad/s",
+       "[0.0, 0.0, 0.0]",
+       "steady rotation about an axis of this direction: centrifugal force",
+       {},
+       3},
+      {"body_force",
+       "axis_through",
+       numbers,
+       "m",
+       "",
+       "a point of that axis; without it the centre of mass",
        {},
        3},
 
