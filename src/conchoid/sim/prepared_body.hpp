@@ -21,6 +21,7 @@ struct PreparedBody {
   IdVector<NodeId, Vec3> scene_positions;  ///< nodes of `detailed` in the body's coordinates, bit for bit
   SurfaceAttributes attributes;            ///< of `detailed`
   std::vector<Region> regions;             ///< of `surface`
+  std::vector<char> quiet;                 ///< per triangle of `surface`: no crack starts there
   std::vector<TriMesh> cracks;  ///< initial crack sheets; those that end on the surface stick out of it
   MaterialSpec material;        ///< constants
   MaterialField toughness;      ///< factor on the material's toughness, at centred points

@@ -89,32 +89,6 @@ ResolutionSpec read_resolution(const TomlTable& file) {
   return resolution;
 }
 
-SceneRegion read_region(const TomlTable& table) {
-  table.require_known_keys();
-  SceneRegion region{.rule = {}, .where = table.where()};
-  table.require("name", region.rule.name);
-  std::vector<std::vector<double>> rows;
-  table.require("half_spaces", rows);
-  for (const auto& row : rows) {
-    const HalfSpace half{.normal = {row[0], row[1], row[2]}, .offset = row[3]};
-    if (half.normal.isZero(0))
-      table.fail("half_spaces", "a half space has the normal (0, 0, 0); give its direction");
-    region.rule.half_spaces.push_back(half);
-  }
-  return region;
-}
-
-void read_regions(const TomlTable& file, Scene& scene) {
-  for (const TomlTable& table : file.tables("region")) {
-    SceneRegion region = read_region(table);
-    for (const SceneRegion& other : scene.regions)
-      if (other.rule.name == region.rule.name)
-        table.fail("name", fmt::format("the region \"{}\" is already defined at {}; rename one of them",
-                                       region.rule.name, other.where));
-    scene.regions.push_back(std::move(region));
-  }
-}
-
 Vec3 read_direction(const TomlTable& table, std::string_view key) {
   Vec3 v = Vec3::Zero();
   table.require(key, v);
@@ -343,27 +317,6 @@ std::vector<Vec3> BoundaryCondition::held_directions() const {
   for (int k = 0; k < 3; ++k)
     if (held[static_cast<std::size_t>(k)]) directions.emplace_back(axes.col(k));
   return directions;
-}
-
-std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
-                                  const std::vector<Region>& model_regions) {
-  std::vector<RegionRule> rules;
-  for (const SceneRegion& region : scene.regions)
-    rules.push_back(region.rule);
-  std::vector<Region> regions = select_regions(surface, rules);
-  for (std::size_t i = 0; i < regions.size(); ++i)
-    if (regions[i].triangles.empty())
-      throw InputError(
-          fmt::format("{}: the region \"{}\" has no triangles: none has all three vertices in its half "
-                      "spaces, or an earlier region took them; move the half spaces",
-                      scene.regions[i].where, regions[i].name));
-  const IdVector<TriId, int> taken = region_of_triangles(surface, regions);
-  for (Region region : model_regions) {
-    if (find_region(regions, region.name)) continue;
-    std::erase_if(region.triangles, [&](TriId t) { return taken[t] >= 0; });
-    regions.push_back(std::move(region));
-  }
-  return regions;
 }
 
 }  // namespace conchoid

@@ -11,7 +11,7 @@
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 #include "conchoid/material/material_field.hpp"
-#include "conchoid/mesh/regions.hpp"
+#include "conchoid/mesh/region_rules.hpp"
 #include "conchoid/sim/output_spec.hpp"
 
 namespace conchoid {
@@ -50,6 +50,7 @@ struct ResolutionSpec {
 
 struct SceneRegion {
   RegionRule rule;
+  bool initiation = true;  ///< whether cracks may start there
   std::string where;
 };
 
@@ -124,6 +125,7 @@ struct Scene {
   MaterialSpec material;
   ResolutionSpec resolution;
   std::vector<SceneRegion> regions;
+  std::vector<std::string> quiet_regions;  ///< names of those where no crack starts
   std::vector<BoundaryCondition> boundary;
   BodyForceSpec body_force;
   std::vector<CrackSpec> cracks;
@@ -141,7 +143,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
 /// Regions of the body's surface: those of the scene, then those of the built-in model for the triangles left
 /// (a region of the scene replaces one of the model of the same name). `model_regions` is empty for mesh
 /// files. Throws InputError for a region of the scene that gets no triangle.
+/// @param attributes  of the surface: its materials
 std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
-                                  const std::vector<Region>& model_regions);
+                                  const std::vector<Region>& model_regions,
+                                  const SurfaceAttributes& attributes = {});
 
 }  // namespace conchoid

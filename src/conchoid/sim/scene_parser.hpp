@@ -33,6 +33,9 @@ std::string_view one_of(const TomlTable& table, const std::vector<std::string_vi
 /// a mirror). The identity without the key. @param name  of the table, for messages
 Mat3 read_axes(const TomlTable& table, std::string_view name);
 
+/// The tables [[region]] (region_keys.cpp).
+void read_regions(const TomlTable& file, Scene& scene);
+
 /// The tables [[boundary]] (boundary_keys.cpp). The scene must have its body and regions.
 void read_boundary(const TomlTable& file, Scene& scene);
 

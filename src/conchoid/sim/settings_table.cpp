@@ -35,10 +35,11 @@ const std::vector<SettingTable>& setting_tables() {
       {"material.strength_field", true, true, "The same for material.strength.", "material.toughness_field"},
       {"resolution", false, true, "How fine the crack is."},
       {"region", true, true,
-       "A named part of the surface: the triangles whose three vertices lie in all its half spaces. A "
-       "triangle "
-       "belongs to the first region that wants it; the regions of a built-in model come after those given "
-       "here."},
+       "A named part of the surface: the triangles that fulfil all that it asks for. Where it asks for a "
+       "place, all "
+       "three vertices must lie there. A triangle belongs to the first region that wants it; the regions of "
+       "a "
+       "built-in model come after those given here."},
       {"boundary", true, true,
        "What acts on a region: one of traction, force (with or without a moment), pressure, displacement, "
        "fixed. "
@@ -193,14 +194,41 @@ const std::vector<Setting>& settings() {
        above(0)},
 
       {"region", "name", text, "", "", "required, unique"},
+      {"region", "half_spaces", vectors, "m", "", "[[nx, ny, nz, d], …]: the points with n·x > d", {}, 4},
+      {"region", "box", vectors, "m", "", "two opposite corners of a box along the scene's axes", {}, 3},
+      {"region", "sphere", numbers, "m", "", "x, y, z of its centre, and its radius", {}, 4},
       {"region",
-       "half_spaces",
-       vectors,
+       "indenter",
+       numbers,
        "m",
        "",
-       "[[nx, ny, nz, d], …]: the points with n·x > d; required",
+       "contact patch of a ball pressed on: x, y, z of its centre where it stands, and its radius; what is "
+       "nearer to "
+       "its surface than `within`, or inside it",
        {},
        4},
+      {"region",
+       "indenter_axis",
+       numbers,
+       "",
+       "",
+       "the indenter is a cylinder along this direction, endless",
+       {},
+       3},
+      {"region", "within", number, "m", "", "distance from the indenter's surface; required with it",
+       above(0)},
+      {"region", "material", text, "", "",
+       "a material that the mesh file gives triangles: usemtl of OBJ; material_3 for the face property "
+       "material_index (or material) = 3 of PLY"},
+      {"region",
+       "nearest",
+       numbers,
+       "m",
+       "",
+       "the one triangle that is nearest to this point, of those that fulfil the rest",
+       {},
+       3},
+      {"region", "initiation", boolean, "", "true", "false: no crack starts there"},
 
       {"boundary", "region", text, "", "", "name of the region; required, at most one condition per region"},
       {"boundary", "traction", numbers, "Pa", "", "force per area", {}, 3},
