@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -97,6 +98,33 @@ TEST(Gravity, AColumnHangsOrStandsUnderItsWeight) {
   EXPECT_LT(hangs, 0.01);
   EXPECT_LT(stands, 0.01);
   RecordProperty("error", test::text(std::max(hangs, stands)));
+}
+
+// A small crack across a column feels the weight below it as it feels a pull of that size.
+TEST(Gravity, ACrackOpensUnderTheWeightBelowIt) {
+  const test::TemporaryFolder folder;
+  const std::string body =
+      test::mesh_body_text(test::write_mesh_in(folder, "column.obj", box_mesh({1, 1, 4}, 4, 4, 16))) +
+      material(0.3) + test::region_text("top", "[0, 0, 1, 1.99]") +
+      test::region_text("foot", "[0, 0, -1, 1.99]") +
+      "[[boundary]]\nregion = 'top'\nfixed = true\n[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = "
+      "[0, 0, "
+      "1]\nradius = 0.15\ntriangles = 200\n";
+  const auto mean = [](const SifReport& report) {
+    double sum = 0, count = 0;
+    for (const auto& node : report.fronts.at(0).nodes) {
+      sum += node.intensity[0];
+      count += 1;
+    }
+    return sum / count;
+  };
+  const double weight = mean(compute_sifs(
+      test::scene_from_text(body + fmt::format("[body_force]\ngravity = [0, 0, {}]\n", -kGravity))));
+  const double pull = mean(compute_sifs(test::scene_from_text(
+      body + test::boundary_text("foot", "traction", {0, 0, -2 * kDensity * kGravity}))));
+  EXPECT_GT(pull, 0);
+  EXPECT_NEAR(weight / pull, 1, 0.01);
+  RecordProperty("ratio", test::text(weight / pull));
 }
 
 // σ_r and σ_θ on the faces z = ±c of a disc of radius R (Timoshenko & Goodier, art. 134).

@@ -25,7 +25,7 @@ class PrescribedNodes {
       return;
     }
     constexpr double smallest_angle = 0.01;  // between directions that are held apart [rad]
-    constexpr double same_value = 1e-9;      // of the values
+    constexpr double same_value = 1e-6;      // of the values
     const Mat3 added = join_held(node.held, held) - node.held;
     const Mat3 seen = added * held * added + (Mat3::Identity() - added);
     if (seen.determinant() < smallest_angle * smallest_angle)
