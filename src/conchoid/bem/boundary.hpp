@@ -48,7 +48,7 @@ struct BoundaryData {
 BoundaryData free_surface(const TriMesh& surface);
 
 /// A known stress field in equilibrium with body forces, superposed on what the elements compute: the stress
-/// at infinity of an unbounded body, or the stress that belongs to the rigid acceleration of an unbalanced
+/// at infinity of an unbounded body, or the stress that belongs to weight, rotation and the acceleration of an unbalanced
 /// one. Empty functions: none.
 struct AmbientField {
   std::function<Mat3(const Vec3&)> stress;        ///< [Pa]

@@ -14,8 +14,8 @@ namespace {
 // The displacement of nodes, component by component, as conditions prescribe it.
 class PrescribedNodes {
  public:
-  explicit PrescribedNodes(const Scene& scene, const TriMesh& surface)
-      : scene_(scene), surface_(surface), nodes_(surface.node_count()) {}
+  PrescribedNodes(const Scene& scene, const PreparedBody& body)
+      : scene_(scene), body_(body), nodes_(body.surface.node_count()) {}
 
   void prescribe(NodeId id, std::size_t condition, const Mat3& held, const Vec3& value) {
     Node& node = nodes_[id.index()];
@@ -53,15 +53,15 @@ class PrescribedNodes {
   [[noreturn]] void refuse(NodeId id, std::size_t condition, const char* what, const char* remedy) const {
     const BoundaryCondition &one = scene_.boundary[condition],
                             &other = scene_.boundary[static_cast<std::size_t>(nodes_[id.index()].by)];
-    const Vec3& x = surface_.positions[id];
+    const Vec3 x = body_.surface.positions[id] + body_.origin;
     throw InputError(fmt::format(
         "{}: contradicts the condition at {}: regions '{}' and '{}' share node {} at "
-        "({:.4g}, {:.4g}, {:.4g}) from the body's centre, but {}; {}",
+        "({:.4g}, {:.4g}, {:.4g}), but {}; {}",
         one.where, other.where, one.region, other.region, id.value, x[0], x[1], x[2], what, remedy));
   }
 
   const Scene& scene_;
-  const TriMesh& surface_;
+  const PreparedBody& body_;
   std::vector<Node> nodes_;
 };
 
@@ -88,13 +88,13 @@ void load(const PreparedBody& body, const Region& region, const BoundaryConditio
 
 BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
   BoundaryData data = free_surface(body.surface);
-  PrescribedNodes nodes(scene, body.surface);
+  PrescribedNodes nodes(scene, body);
   for (std::size_t b = 0; b < scene.boundary.size(); ++b) {
     const BoundaryCondition& condition = scene.boundary[b];
     const Region* region = find_region(body.regions, condition.region);
     if (!region || region->triangles.empty())
-      throw InputError(fmt::format("{}: region '{}' has no triangles; widen its half spaces", condition.where,
-                                   condition.region));
+      throw InputError(
+          fmt::format("{}: region '{}' has no triangles; widen it", condition.where, condition.region));
     if (condition.kind == ConditionKind::displacement)
       hold(body.surface, *region, condition, b, nodes, data);
     else
