@@ -26,7 +26,7 @@ struct GrowingDisc {
       if (unit_normal(cube, TriId(t)).z() < -0.9)
         data.kind[t] = BoundaryKind::displacement;
       else
-        sources.push_back({BoundaryKind::traction, t});
+        sources.push_back({Prescribed::traction, t});
     body = make_body_operator(cube, data, {3.1e9, 0.327});
     const TriMesh disc = disc_crack({0.01, 0.02, 0.03}, Vec3::UnitZ(), 0.2, {.edge = 0.06});
     before = space_of(disc, data);

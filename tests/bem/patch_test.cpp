@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/bem/body_force.hpp"
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/bem/surface_stress.hpp"
@@ -151,7 +152,7 @@ TEST(RigidBody, UnbalancedLoadIsSeenAndRelieved) {
   EXPECT_FALSE(balanced(r, mesh));
   // pulled at one end, the other following by inertia: σ_zz falls linearly from 1e6 at the end to 0 at the
   // other
-  const AmbientField field = inertia_field(mesh, r, kGlassy);
+  const AmbientField field = particular_field(inertia_force(mesh, r), kGlassy);
   BoundaryData rest = data;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     rest.traction[t] -= field.stress(centroid(mesh, TriId(t))) * unit_normal(mesh, TriId(t));
@@ -165,7 +166,7 @@ TEST(RigidBody, UnbalancedLoadIsSeenAndRelieved) {
 TEST(RigidBody, RotationalInertiaFieldIsInEquilibrium) {
   const TriMesh mesh = box_mesh({1, 2, 3}, 2, 2, 2);
   const Resultant r{Vec3(1, -2, 0.5), Vec3(0.3, 0.4, -0.7), 1, Vec3::Zero()};
-  const AmbientField field = inertia_field(mesh, r, kGlassy);
+  const AmbientField field = particular_field(inertia_force(mesh, r), kGlassy);
   // force and moment of its own surface traction equal the load's: ∫σ n = F, ∫ x × σ n = M. Midpoint rule is
   // exact for the force of linear stress only, so integrate finely.
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 
 #include "conchoid/bem/load_case.hpp"
 #include "conchoid/bem/pair_blocks.hpp"
@@ -22,6 +23,28 @@ void clear(const BlockView& out, std::size_t rows, std::size_t columns) {
   for (std::size_t i = 0; i < 3 * rows; ++i)
     for (std::size_t j = 0; j < 3 * columns; ++j)
       out.data[i * out.row + j * out.column] = 0;
+}
+
+// P B Q of each block, and s (I − P) more where a row meets itself.
+template <class Row, class Column>
+void project(const BlockView& out, std::span<const Row> rows, std::span<const Column> columns,
+             const std::vector<int>& row_unknown, const std::vector<Mat3>& row_projection,
+             const std::vector<int>& column_unknown, const std::vector<Mat3>& column_projection) {
+  using Stride = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const Mat3& Q = column_projection[static_cast<std::size_t>(column_unknown[columns[j].index()])];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Mat3& P = row_projection[static_cast<std::size_t>(row_unknown[rows[i].index()])];
+      if (P.isIdentity(0) && Q.isIdentity(0)) continue;
+      Eigen::Map<Mat3, 0, Stride> block(
+          out.data + 3 * i * out.row + 3 * j * out.column,
+          Stride(static_cast<Eigen::Index>(out.column), static_cast<Eigen::Index>(out.row)));
+      Mat3 of_system = P * block * Q;
+      if constexpr (std::is_same_v<Row, Column>)
+        if (rows[i] == columns[j]) of_system += block.trace() / 3 * (Mat3::Identity() - P);
+      block = of_system;
+    }
+  }
 }
 
 std::vector<std::size_t> triangles_around(const BodyDiscretisation& body, std::span<const NodeId> nodes) {
@@ -66,16 +89,30 @@ BodyDiscretisation::BodyDiscretisation(TriMesh s, std::vector<BoundaryKind> k, c
     curls.push_back(surface_curls(panels.back()));
     for (int corner = 0; corner < 3; ++corner)
       around[nodes[corner].index()].push_back({t, corner});
-    if (kinds[t] != BoundaryKind::displacement) continue;
+    if (kinds[t].holds_nothing()) continue;
     traction_unknown[t] = static_cast<int>(held_triangles.size());
     held_triangles.emplace_back(t);
+    unknown_traction.push_back(kinds[t].held());
   }
-  const std::vector<char> held = held_nodes(surface, kinds);
+  const std::vector<Mat3> held = held_at_nodes(surface, kinds);
   for (std::size_t i = 0; i < held.size(); ++i) {
-    if (held[i]) continue;
+    if (held[i].isIdentity(0)) continue;
     displacement_unknown[i] = static_cast<int>(free_nodes.size());
     free_nodes.emplace_back(i);
+    unknown_displacement.push_back(Mat3::Identity() - held[i]);
   }
+}
+
+void BodyDiscretisation::keep_unknown(double* x) const {
+  const auto project = [](const std::vector<Mat3>& onto, double* at) {
+    for (std::size_t i = 0; i < onto.size(); ++i)
+      if (!onto[i].isIdentity(0)) {
+        Eigen::Map<Vec3> value(at + 3 * i);
+        value = (onto[i] * value).eval();
+      }
+  };
+  project(unknown_traction, x);
+  project(unknown_displacement, x + tractions());
 }
 
 void BodyEntries::keep_pairs() {
@@ -137,6 +174,27 @@ void BodyEntries::hypersingular(std::span<const NodeId> rows, std::span<const No
             add(out, static_cast<std::size_t>(row[s][a]), static_cast<std::size_t>(column[t][b]),
                 blocks.hypersingular(body_.curls[x][a], body_.curls[y][b]));
     }
+}
+
+void BodyEntries::system_single_layer(std::span<const TriId> rows, std::span<const TriId> columns,
+                                      BlockView out) const {
+  single_layer(rows, columns, out);
+  project(out, rows, columns, body_.traction_unknown, body_.unknown_traction, body_.traction_unknown,
+          body_.unknown_traction);
+}
+
+void BodyEntries::system_double_layer(std::span<const TriId> rows, std::span<const NodeId> columns,
+                                      BlockView out) const {
+  double_layer(rows, columns, out);
+  project(out, rows, columns, body_.traction_unknown, body_.unknown_traction, body_.displacement_unknown,
+          body_.unknown_displacement);
+}
+
+void BodyEntries::system_hypersingular(std::span<const NodeId> rows, std::span<const NodeId> columns,
+                                       BlockView out) const {
+  hypersingular(rows, columns, out);
+  project(out, rows, columns, body_.displacement_unknown, body_.unknown_displacement,
+          body_.displacement_unknown, body_.unknown_displacement);
 }
 
 }  // namespace conchoid

@@ -27,7 +27,9 @@ CrackSystem::Function make_function(const EnrichedSpace& space, const Enrichment
   for (const PanelValues& v : f.support)
     if (v.panel >= space.surface_count)
       out.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
-  if (f.carries_opening()) out.normal.normalize();
+  if (!f.carries_opening()) return out;
+  out.normal.normalize();
+  if (!f.free.isIdentity(0)) out.normal = f.free * out.normal;
   return out;
 }
 
@@ -102,8 +104,11 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
   for (std::size_t w = 0; w < plan.wanted.size(); ++w)
     for (std::size_t j = 0; j <= kept + w; ++j) {
       const std::size_t i = kept + w;
-      const Mat3 block =
+      const Mat3& free = space_.functions[plan.wanted[w]].free;
+      Mat3 block =
           block_of(rows[w].enriched, 0, 3 * plan.order[j]) - block_of(coupling, 3 * j, 3 * w).transpose();
+      if (j == i && !free.isIdentity(0))  // components that are prescribed stand alone
+        block += block.trace() / free.trace() * (Mat3::Identity() - free);
       S.add(3 * i, 3 * j, block);
       if (j < i) S.add(3 * j, 3 * i, block.transpose());
     }
@@ -176,7 +181,9 @@ std::vector<double> CrackSystem::right_hand_side(const LoadCase& load) const {
   std::vector<double> g(size());
   for (std::size_t f = 0; f < functions_.size(); ++f) {
     const std::size_t i = position_[f];
+    const Mat3& free = space_.functions[f].free;
     Vec3 sum = enrichment_load(space_, space_.functions[f], load);
+    if (!free.isIdentity(0)) sum = (free * sum).eval();
     for (std::size_t s = 0; s < values.size(); ++s)
       sum -= block_of(functions_[i].sources, 0, 3 * s) * values[s];
     std::copy_n(sum.data(), 3, &g[3 * i]);

@@ -35,9 +35,9 @@ class CrackSystem {
     EnrichmentKind kind;
     NodeId node;
     std::vector<double> key;
-    DenseMatrix rows;     ///< 3 × body unknowns, of R
-    DenseMatrix sources;  ///< 3 × 3·sources
-    Vec3 normal = Vec3::Zero();
+    DenseMatrix rows;            ///< 3 × body unknowns, of R
+    DenseMatrix sources;         ///< 3 × 3·sources
+    Vec3 normal = Vec3::Zero();  ///< of the crack, as far as it may open along it
     bool carries_opening() const { return kind != EnrichmentKind::hat; }
   };
 

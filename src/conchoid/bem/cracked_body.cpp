@@ -40,7 +40,9 @@ struct CrackedBody::State {
     if (!body->settings().contact) return a;
     std::vector<OpeningConstraint> constraints;
     for (std::size_t f = 0; f < crack.functions().size(); ++f)
-      if (crack.functions()[f].carries_opening()) constraints.push_back({3 * f, crack.functions()[f].normal});
+      if (const CrackSystem::Function& function = crack.functions()[f];
+          function.carries_opening() && !function.normal.isZero(0))
+        constraints.push_back({3 * f, function.normal});
     report =
         close_penetrating_faces(a, constraints, [&](double* b, std::size_t count) { crack.solve(b, count); });
     return a;
@@ -59,14 +61,14 @@ struct CrackedBody::State {
     IdVector<NodeId, Vec3> u = load.displacement;
     const BodyDiscretisation& d = body->discretisation();
     for (std::size_t i = 0; i < d.free_nodes.size(); ++i)
-      u[d.free_nodes[i]] = Eigen::Map<const Vec3>(&solution[d.tractions() + 3 * i]);
+      u[d.free_nodes[i]] += Eigen::Map<const Vec3>(&solution[d.tractions() + 3 * i]);
     return u;
   }
   std::vector<Vec3> computed_traction() const {
     std::vector<Vec3> t = load.traction;
     const BodyDiscretisation& d = body->discretisation();
     for (std::size_t i = 0; i < d.held_triangles.size(); ++i)
-      t[d.held_triangles[i].index()] = Eigen::Map<const Vec3>(&solution[3 * i]);
+      t[d.held_triangles[i].index()] += Eigen::Map<const Vec3>(&solution[3 * i]);
     return t;
   }
 };

@@ -107,7 +107,8 @@ class DenseSolver : public BodySolver {
     parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const TiledCholesky::Tile& t = tiles[i];
-        entries.single_layer(part(held, t.row, t.rows), part(held, t.column, t.columns), {t.data, 1, t.rows});
+        entries.system_single_layer(part(held, t.row, t.rows), part(held, t.column, t.columns),
+                                    {t.data, 1, t.rows});
       }
     });
     if (!V_.factor())
@@ -115,8 +116,8 @@ class DenseSolver : public BodySolver {
           "the single layer matrix is not positive definite: the surface mesh has overlapping or nearly "
           "degenerate triangles; run `conchoid mesh` on it and remesh");
     parallel_for(held.size(), 4, [&](std::size_t begin, std::size_t end) {
-      entries.double_layer(std::span(held).subspan(begin, end - begin), entries.body().free_nodes,
-                           {W_.data() + 3 * begin, 1, nq_});
+      entries.system_double_layer(std::span(held).subspan(begin, end - begin), entries.body().free_nodes,
+                                  {W_.data() + 3 * begin, 1, nq_});
     });
     parallel_for(nu_, kVectors, [&](std::size_t begin, std::size_t end) {
       V_.solve_lower(W_.data() + begin * nq_, end - begin, nq_);
@@ -130,8 +131,8 @@ class DenseSolver : public BodySolver {
     parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const TiledCholesky::Tile& t = tiles[i];
-        entries.hypersingular(part(nodes, t.row, t.rows), part(nodes, t.column, t.columns),
-                              {t.data, 1, t.rows});
+        entries.system_hypersingular(part(nodes, t.row, t.rows), part(nodes, t.column, t.columns),
+                                     {t.data, 1, t.rows});
         if (nq_ > 0)
           cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(t.rows),
                       static_cast<int>(t.columns), q, V_.scale(), W_.data() + t.row * nq_, q,

@@ -63,8 +63,10 @@ class SpaceBuilder {
     classify_nodes();
     for (std::size_t i = 0; i < cut_.positions.size(); ++i)
       add_functions(NodeId(i));
-    for (EnrichmentFunction& f : out_.functions)
+    for (EnrichmentFunction& f : out_.functions) {
+      f.free -= held_[f.node.index()];
       make_key(f);
+    }
     return std::move(out_);
   }
 
@@ -96,7 +98,7 @@ class SpaceBuilder {
   void classify_nodes() {
     const std::size_t n = cut_.positions.size();
     on_front_.assign(n, 0);
-    fixed_.assign(n, 0);
+    held_.assign(n, Mat3::Zero());
     mouth_edges_.resize(n);
     for (const Edge& e : cut_.mouth) {
       mouth_edges_[e.a.index()].push_back(e.b);
@@ -111,14 +113,14 @@ class SpaceBuilder {
         on_front_[a.index()] = on_front_[b.index()] = 1;
       }
     for (std::size_t t = 0; t < cut_.surface.size(); ++t)
-      if (kinds_[cut_.surface_parent[t].index()] == BoundaryKind::displacement)
+      if (const BoundaryKind& kind = kinds_[cut_.surface_parent[t].index()]; !kind.holds_nothing())
         for (NodeId node : cut_.surface[TriId(t)])
-          fixed_[node.index()] = 1;
+          held_[node.index()] = join_held(held_[node.index()], kind.held());
   }
 
   void add_functions(NodeId node) {
     const bool on_mouth = !mouth_edges_[node.index()].empty();
-    if (crack_star_.around(node).empty() || fixed_[node.index()]) return;
+    if (crack_star_.around(node).empty() || held_[node.index()].isIdentity(0)) return;
     if (on_mouth && !is_surface_node(node)) add_hat(node);
     if (on_front_[node.index()]) return;
     if (!on_mouth) return add_crack_hat(node);
@@ -133,13 +135,13 @@ class SpaceBuilder {
   }
 
   void add_crack_hat(NodeId node) {
-    EnrichmentFunction f{EnrichmentKind::crack, node, {}, {}};
+    EnrichmentFunction f{EnrichmentKind::crack, node, {}, {}, Mat3::Identity()};
     add_crack_values(node, f);
     out_.functions.push_back(std::move(f));
   }
 
   void add_hat(NodeId node) {
-    EnrichmentFunction f{EnrichmentKind::hat, node, {}, {}};
+    EnrichmentFunction f{EnrichmentKind::hat, node, {}, {}, Mat3::Identity()};
     for (std::size_t t : surface_star_.around(node))
       f.support.push_back({t, unit_value(cut_.surface[TriId(t)], node, 1)});
     out_.functions.push_back(std::move(f));
@@ -148,7 +150,7 @@ class SpaceBuilder {
   // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points
   // to runs along the mouth edge in the direction the crack triangle does.
   void add_mouth(NodeId node) {
-    EnrichmentFunction f{EnrichmentKind::mouth, node, {}, {}};
+    EnrichmentFunction f{EnrichmentKind::mouth, node, {}, {}, Mat3::Identity()};
     std::vector<std::size_t> plus;
     if (!collect_plus_fan(node, plus)) return;
     add_crack_values(node, f);
@@ -209,7 +211,8 @@ class SpaceBuilder {
   const TriMesh& surface_;
   const std::vector<BoundaryKind>& kinds_;
   const Star surface_star_, crack_star_;
-  std::vector<char> on_front_, fixed_;
+  std::vector<char> on_front_;
+  std::vector<Mat3> held_;  // per node: projection onto the directions in which it is held
   std::vector<std::vector<NodeId>> mouth_edges_;
   EnrichedSpace out_;
 };

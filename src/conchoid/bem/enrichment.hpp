@@ -28,7 +28,8 @@ struct EnrichmentFunction {
   EnrichmentKind kind;
   NodeId node;  ///< of the cut complex
   std::vector<PanelValues> support;
-  std::vector<double> key;  ///< geometry and values of the support: equal keys, equal functions
+  std::vector<double> key;       ///< geometry and values of the support: equal keys, equal functions
+  Mat3 free = Mat3::Identity();  ///< projection onto the directions in which its coefficient is unknown
   bool carries_opening() const { return kind != EnrichmentKind::hat; }
 };
 
@@ -42,8 +43,8 @@ struct EnrichedSpace {
   std::vector<EnrichmentFunction> functions;  ///< ordered by node
 };
 
-/// Nodes on the front (Δu = 0), on the displacement boundary, and where more than two mouth edges meet carry
-/// no opening.
+/// Nodes on the front (Δu = 0), and where more than two mouth edges meet carry no opening; nodes on a part of the
+/// surface that is held carry none in its held directions.
 EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
                                   const std::vector<BoundaryKind>& kinds);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "conchoid/bem/pair_blocks.hpp"
 #include "conchoid/core/parallel.hpp"
@@ -38,6 +39,7 @@ class RowAssembler {
                const std::vector<std::size_t>& wanted, Part part, PairMemory* memory = nullptr)
       : body_(body.discretisation()),
         space_(space),
+        wanted_(wanted),
         source_count_(sources.size()),
         part_(part),
         memory_(memory),
@@ -46,7 +48,7 @@ class RowAssembler {
         trial_(space.panels.size()),
         test_(space.panels.size()) {
     for (std::size_t s = 0; s < sources.size(); ++s)
-      (sources[s].kind == BoundaryKind::traction ? source_of_triangle_ : source_of_node_)[sources[s].index] =
+      (sources[s].kind == Prescribed::traction ? source_of_triangle_ : source_of_node_)[sources[s].index] =
           static_cast<int>(s);
     for (const Panel& panel : space.panels)
       curls_.push_back(surface_curls(panel));
@@ -89,6 +91,8 @@ class RowAssembler {
           accumulate(t.rows, rows_[t.f.index]);
     }
     if (memory_) memory_->remember(space_.panels, std::move(made_));
+    for (std::size_t w = 0; w < rows_.size(); ++w)
+      keep_unknown(space_.functions[wanted_[w]].free, rows_[w]);
     return std::move(rows_);
   }
 
@@ -96,6 +100,27 @@ class RowAssembler {
   void register_function(std::size_t function, std::size_t index, PanelFunctions& lists) const {
     for (const PanelValues& v : space_.functions[function].support)
       lists[v.panel].push_back({index, v.w, curl_of(curls_[v.panel], v.w)});
+  }
+
+  // Without the components that are prescribed, of the function and of what it meets.
+  void keep_unknown(const Mat3& free, EnrichmentRows& rows) const {
+    if (!free.isIdentity(0))
+      for (DenseMatrix* m : {&rows.body, &rows.enriched, &rows.sources})
+        for (std::size_t j = 0; j < m->columns; ++j) {
+          const Vec3 column((*m)(0, j), (*m)(1, j), (*m)(2, j));
+          for (int p = 0; p < 3; ++p)
+            (*m)(static_cast<std::size_t>(p), j) = free.row(p).dot(column);
+        }
+    if (part_ == Part::sources) return;
+    for (std::size_t p = 0; p < 3; ++p) {
+      body_.keep_unknown(rows.body.data.data() + p * rows.body.columns);
+      double* enriched = rows.enriched.data.data() + p * rows.enriched.columns;
+      for (std::size_t f = 0; f < space_.functions.size(); ++f)
+        if (const Mat3& other = space_.functions[f].free; !other.isIdentity(0)) {
+          Eigen::Map<Vec3> value(enriched + 3 * f);
+          value = (other * value).eval();
+        }
+    }
   }
 
   EnrichmentRows empty_rows() const {
@@ -176,17 +201,22 @@ class RowAssembler {
     return table_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
   }
 
-  // Where a column of the body's functions goes: an unknown's, a source's, or nowhere.
-  struct Column {
-    DenseMatrix EnrichmentRows::*matrix = nullptr;
-    std::size_t at = 0;
+  // Where a column of the body's functions goes: to an unknown, a source, both (where some components are
+  // prescribed) or neither.
+  struct Columns {
+    std::optional<std::size_t> body, source;
+    bool none() const { return !body && !source; }
+    void add(EnrichmentRows& rows, const Mat3& block) const {
+      if (body) rows.body.add(0, *body, block);
+      if (source) rows.sources.add(0, *source, block);
+    }
   };
 
-  Column column(int unknown, std::size_t first, int source) const {
-    if (unknown >= 0 && part_ == Part::all)
-      return {&EnrichmentRows::body, first + 3 * static_cast<std::size_t>(unknown)};
-    if (source >= 0) return {&EnrichmentRows::sources, 3 * static_cast<std::size_t>(source)};
-    return {};
+  Columns columns(int unknown, std::size_t first, int source) const {
+    Columns out;
+    if (unknown >= 0 && part_ == Part::all) out.body = first + 3 * static_cast<std::size_t>(unknown);
+    if (source >= 0) out.source = 3 * static_cast<std::size_t>(source);
+    return out;
   }
 
   // Interaction with the body's own functions on surface piece y.
@@ -195,24 +225,25 @@ class RowAssembler {
     const auto& nodes = body_.surface.corners[space_.parent[y]];
     for (int k = 0; k < 3; ++k) {
       const std::size_t node = nodes[k].index();
-      const Column to = column(body_.displacement_unknown[node], body_.tractions(), source_of_node_[node]);
-      if (!to.matrix) continue;
+      const Columns to = columns(body_.displacement_unknown[node], body_.tractions(), source_of_node_[node]);
+      if (to.none()) continue;
       for (TestRows& t : out)
-        (t.rows.*to.matrix).add(0, to.at, blocks.hypersingular(t.f.curl, body_.curls[parent][k]));
+        to.add(t.rows, blocks.hypersingular(t.f.curl, body_.curls[parent][k]));
     }
-    const Column to = column(body_.traction_unknown[parent], 0, source_of_triangle_[parent]);
-    if (!to.matrix) return;
+    const Columns to = columns(body_.traction_unknown[parent], 0, source_of_triangle_[parent]);
+    if (to.none()) return;
     const DoubleLayerPair dl = double_layer(x, y);
     if (PairMemory::Row* row = kept_row(x)) {
       row->double_layer[y] = dl;
       row->has_double[y] = 1;
     }
     for (TestRows& t : out)
-      (t.rows.*to.matrix).add(0, to.at, blocks.double_layer(t.f.curl, weigh(dl, t.f.w)).transpose());
+      to.add(t.rows, blocks.double_layer(t.f.curl, weigh(dl, t.f.w)).transpose());
   }
 
   const BodyDiscretisation& body_;
   const EnrichedSpace& space_;
+  const std::vector<std::size_t>& wanted_;
   const std::size_t source_count_;
   const Part part_;
   PairMemory* memory_;

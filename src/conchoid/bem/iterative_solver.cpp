@@ -36,12 +36,12 @@ class IterativeSolver : public BodySolver {
     const auto& nodes = entries.body().free_nodes;
     parallel_for(held.size(), 4, [&](std::size_t begin, std::size_t end) {
       const auto rows = std::span(held).subspan(begin, end - begin);
-      entries.single_layer(rows, held, {V_.data() + 3 * begin * nq_, nq_, 1});
-      entries.double_layer(rows, nodes, {K_.data() + 3 * begin * nu_, nu_, 1});
+      entries.system_single_layer(rows, held, {V_.data() + 3 * begin * nq_, nq_, 1});
+      entries.system_double_layer(rows, nodes, {K_.data() + 3 * begin * nu_, nu_, 1});
     });
     parallel_for(nodes.size(), 16, [&](std::size_t begin, std::size_t end) {
-      entries.hypersingular(std::span(nodes).subspan(begin, end - begin), nodes,
-                            {D_.data() + 3 * begin * nu_, nu_, 1});
+      entries.system_hypersingular(std::span(nodes).subspan(begin, end - begin), nodes,
+                                   {D_.data() + 3 * begin * nu_, nu_, 1});
     });
     hold(motions);
     for (std::size_t i = 0; i < nq_; ++i)

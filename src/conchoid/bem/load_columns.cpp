@@ -7,15 +7,15 @@ namespace conchoid {
 std::vector<LoadSource> sources_of(const LoadCase& load) {
   std::vector<LoadSource> sources;
   for (std::size_t t = 0; t < load.traction.size(); ++t)
-    if (!load.traction[t].isZero(0)) sources.push_back({BoundaryKind::traction, t});
+    if (!load.traction[t].isZero(0)) sources.push_back({Prescribed::traction, t});
   for (std::size_t i = 0; i < load.displacement.size(); ++i)
-    if (!load.displacement[NodeId(i)].isZero(0)) sources.push_back({BoundaryKind::displacement, i});
+    if (!load.displacement[NodeId(i)].isZero(0)) sources.push_back({Prescribed::displacement, i});
   return sources;
 }
 
 Vec3 value_at(const LoadCase& load, const LoadSource& source) {
-  return source.kind == BoundaryKind::traction ? load.traction[source.index]
-                                               : load.displacement[NodeId(source.index)];
+  return source.kind == Prescribed::traction ? load.traction[source.index]
+                                             : load.displacement[NodeId(source.index)];
 }
 
 std::vector<double> LoadColumns::integrate(const LoadSource& source) const {
@@ -24,7 +24,7 @@ std::vector<double> LoadColumns::integrate(const LoadSource& source) const {
   std::vector<double> out(3 * n);
   const BlockView tractions{out.data(), 1, n};
   const BlockView displacements{out.data() + nq, n, 1};  // the source's rows, transposed
-  if (source.kind == BoundaryKind::traction) {
+  if (source.kind == Prescribed::traction) {
     const TriId self[] = {TriId(source.index)};
     entries_.single_layer(body.held_triangles, self, tractions);
     entries_.double_layer(self, body.free_nodes, displacements);
@@ -33,7 +33,7 @@ std::vector<double> LoadColumns::integrate(const LoadSource& source) const {
     entries_.double_layer(body.held_triangles, self, tractions);
     entries_.hypersingular(self, body.free_nodes, displacements);
   }
-  const bool negative_tractions = source.kind == BoundaryKind::traction;
+  const bool negative_tractions = source.kind == Prescribed::traction;
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < n; ++i)
       if (i >= nq || negative_tractions) out[c * n + i] = -out[c * n + i];
@@ -90,6 +90,7 @@ std::vector<double> LoadColumns::right_hand_side(const LoadCase& load) {
       for (std::size_t i = 0; i < n; ++i)
         f[i] += value[c] * column[s][static_cast<std::size_t>(c) * n + i];
   }
+  entries_.body().keep_unknown(f.data());
   return f;
 }
 

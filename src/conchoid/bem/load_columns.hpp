@@ -11,9 +11,11 @@
 
 namespace conchoid {
 
+enum class Prescribed : unsigned char { traction, displacement };
+
 /// A place where a value is prescribed: a triangle's traction, or a node's displacement.
 struct LoadSource {
-  BoundaryKind kind;
+  Prescribed kind;
   std::size_t index;
   friend auto operator<=>(const LoadSource&, const LoadSource&) = default;
 };
@@ -25,7 +27,8 @@ Vec3 value_at(const LoadCase& load, const LoadSource& source);
 /// What the values of each source contribute to the right-hand side of the uncracked body,
 ///   f_D = −V g_N + (½M + K) g_D      per unknown traction
 ///   f_N = (½M − Kᵀ) g_N − D g_D      per unknown displacement                         docs/theory.md (B1)
-/// (g_N prescribed traction, g_D displacement, M the mass matrix between the two.) The three columns of a
+/// in the directions that are unknown (g_N prescribed traction, g_D displacement, M the mass matrix between the
+/// two). The three columns of a
 /// source are integrated when it first occurs and kept: a load on the same places costs no integration,
 /// another place costs its own pairs only. 24 bytes per source and unknown component. Safe to use from
 /// several threads.

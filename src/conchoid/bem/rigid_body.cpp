@@ -1,24 +1,18 @@
 #include "conchoid/bem/rigid_body.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "conchoid/bem/load_case.hpp"
 #include "conchoid/bem/pair_blocks.hpp"
 
 namespace conchoid {
-namespace {
-
-struct MassProperties {
-  double volume = 0;
-  Vec3 center = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();  // about the centre, for density 1
-};
-
 // Tetrahedra from a point near the body to every triangle.
-MassProperties mass_properties(const TriMesh& surface) {
-  MassProperties p;
+VolumeMoments volume_moments(const TriMesh& surface) {
+  VolumeMoments p;
   const Vec3 origin = bounding_box(surface).center();
   Mat3 second = Mat3::Zero();  // ∫ x xᵀ
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
@@ -37,13 +31,12 @@ MassProperties mass_properties(const TriMesh& surface) {
   return p;
 }
 
-}  // namespace
-
 Resultant resultant(const TriMesh& surface, const BoundaryData& data) {
-  Resultant r{Vec3::Zero(), Vec3::Zero(), 0, mass_properties(surface).center};
+  Resultant r{Vec3::Zero(), Vec3::Zero(), 0, volume_moments(surface).center};
   for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
-    if (data.kind[t] != BoundaryKind::traction) continue;
-    const Vec3 f = area_vector(surface, TriId(t)).norm() * data.traction[t];
+    if (data.kind[t].holds_all()) continue;
+    Vec3 f = area_vector(surface, TriId(t)).norm() * data.traction[t];
+    if (!data.kind[t].holds_nothing()) f -= data.kind[t].held() * f;
     r.force += f;
     r.moment += cross(centroid(surface, TriId(t)) - r.center, f);
     r.scale += f.norm();
@@ -56,46 +49,67 @@ bool balanced(const Resultant& r, const TriMesh& surface) {
   return r.force.norm() <= tolerance && r.moment.norm() <= tolerance * bounding_box(surface).diagonal();
 }
 
-AmbientField inertia_field(const TriMesh& surface, const Resultant& r, const ElasticConstants& m) {
-  const MassProperties p = mass_properties(surface);
-  const Vec3 b = -r.force / p.volume;                            // −ρ a
-  const Mat3 w = -cross_matrix(p.inertia.inverse() * r.moment);  // −ρ α×
-  const double mu = m.shear_modulus();
-  const double lambda = 2 * mu * m.poisson_ratio / (1 - 2 * m.poisson_ratio);
-  const double translation = -1 / (8 * mu + 2 * lambda), rotation = -1 / (10 * mu);
-  const Vec3 center = p.center;
-  AmbientField field;
-  field.displacement = [=](const Vec3& y) -> Vec3 {
-    const Vec3 x = y - center;
-    return (translation * b + rotation * (w * x)) * x.squaredNorm();
-  };
-  field.stress = [=](const Vec3& y) -> Mat3 {
-    const Vec3 x = y - center;
-    const Mat3 gradient =
-        2 * (translation * b + rotation * (w * x)) * x.transpose() + rotation * x.squaredNorm() * w;
-    return lambda * gradient.trace() * Mat3::Identity() + mu * (gradient + gradient.transpose());
-  };
-  return field;
-}
-
 namespace {
 
-// Six orthonormal motions of the given nodes.
-void add_motions(const TriMesh& surface, const std::vector<std::size_t>& nodes,
-                 std::vector<std::vector<double>>& out) {
-  Vec3 center = Vec3::Zero();
+// Displacement of x under the six unit motions about a centre, three translations and three rotations.
+Eigen::Matrix<double, 3, 6> unit_motions(const Vec3& x, const Vec3& center) {
+  Eigen::Matrix<double, 3, 6> B;
+  B << Mat3::Identity(), -cross_matrix(x - center);
+  return B;
+}
+
+std::vector<RigidMotion> all_motions() {
+  std::vector<RigidMotion> motions;
+  for (int k = 0; k < 6; ++k)
+    motions.push_back({k < 3 ? Vec3(Vec3::Unit(k)) : Vec3(Vec3::Zero()),
+                       k < 3 ? Vec3(Vec3::Zero()) : Vec3(Vec3::Unit(k - 3))});
+  return motions;
+}
+
+// Motions that no hold sees: the null space of Σ Bᵀ H B, with rotations measured at the size of the body.
+std::vector<RigidMotion> motions_left(const TriMesh& surface, const std::vector<Mat3>& held,
+                                      const std::vector<char>& counts, const Vec3& center, double size) {
+  constexpr double unseen = 1e-11;  // of the largest eigenvalue
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  Mat6 seen = Mat6::Zero();
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!counts[i] || held[i].isZero(0)) continue;
+    Eigen::Matrix<double, 3, 6> B = unit_motions(surface.positions[NodeId(i)], center);
+    B.rightCols<3>() /= size;
+    seen += B.transpose() * held[i] * B;
+  }
+  if (seen.isZero(0)) return all_motions();
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(seen);
+  std::vector<RigidMotion> motions;
+  for (int k = 0; k < 6; ++k)
+    if (eigen.eigenvalues()[k] <= unseen * eigen.eigenvalues()[5])
+      motions.push_back(
+          {eigen.eigenvectors().col(k).head<3>(), eigen.eigenvectors().col(k).tail<3>() / size});
+  return motions;
+}
+
+// Volume that each connected part of a closed surface encloses; negative: a cavity.
+std::vector<double> volume_of_parts(const TriMesh& surface, const std::vector<int>& part) {
+  std::vector<double> volume;
+  for (std::size_t t = 0; t < surface.triangle_count(); ++t) {
+    const auto p = static_cast<std::size_t>(part[surface.corners[TriId(t)][0].index()]);
+    if (p >= volume.size()) volume.resize(p + 1, 0.0);
+    const Triangle x = surface.triangle(TriId(t));
+    volume[p] += x[0].dot(cross(x[1], x[2])) / 6;
+  }
+  return volume;
+}
+
+// Orthonormal vectors, one per motion, of the given nodes.
+void add_motions(const TriMesh& surface, const std::vector<std::size_t>& nodes, const Vec3& center,
+                 const std::vector<RigidMotion>& motions, std::vector<std::vector<double>>& out) {
+  std::vector<std::vector<double>> modes(motions.size(), std::vector<double>(3 * surface.node_count(), 0.0));
   for (std::size_t i : nodes)
-    center += surface.positions[NodeId(i)] / static_cast<double>(nodes.size());
-  std::vector<std::vector<double>> modes(6, std::vector<double>(3 * surface.node_count(), 0.0));
-  for (std::size_t i : nodes)
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 rotation = cross(Vec3::Unit(k), surface.positions[NodeId(i)] - center);
-      for (int j = 0; j < 3; ++j) {
-        modes[k][3 * i + j] = j == k;
-        modes[3 + k][3 * i + j] = rotation[j];
-      }
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const Vec3 moved = motions[k].v + cross(motions[k].omega, surface.positions[NodeId(i)] - center);
+      std::copy_n(moved.data(), 3, &modes[k][3 * i]);
     }
-  for (std::size_t k = 0; k < 6; ++k)  // modified Gram–Schmidt
+  for (std::size_t k = 0; k < modes.size(); ++k)  // modified Gram–Schmidt
     for (std::size_t j = 0; j <= k; ++j) {
       const double product = std::inner_product(modes[k].begin(), modes[k].end(), modes[j].begin(), 0.0);
       const double length = std::sqrt(product);
@@ -108,20 +122,51 @@ void add_motions(const TriMesh& surface, const std::vector<std::size_t>& nodes,
 
 }  // namespace
 
+std::vector<RigidMotion> free_motions(const TriMesh& surface, const std::vector<BoundaryKind>& kinds,
+                                      const Vec3& center) {
+  return motions_left(surface, held_at_nodes(surface, kinds), std::vector<char>(surface.node_count(), 1),
+                      center, bounding_box(surface).diagonal());
+}
+
+Resultant unsupported(const TriMesh& surface, const Resultant& r, const std::vector<RigidMotion>& motions) {
+  if (motions.size() == 6) return r;
+  const VolumeMoments p = volume_moments(surface);
+  const auto n = static_cast<Eigen::Index>(motions.size());
+  Eigen::MatrixXd R(6, n), M = Eigen::MatrixXd::Zero(6, 6);
+  for (Eigen::Index k = 0; k < n; ++k)
+    R.col(k) << motions[static_cast<std::size_t>(k)].v, motions[static_cast<std::size_t>(k)].omega;
+  M.topLeftCorner<3, 3>() = p.volume * Mat3::Identity();
+  M.bottomRightCorner<3, 3>() = p.inertia;
+  Eigen::Matrix<double, 6, 1> F = Eigen::Matrix<double, 6, 1>::Zero();
+  F << r.force, r.moment;
+  if (n == 0)
+    F.setZero();
+  else
+    F = (M * R * (R.transpose() * M * R).inverse() * (R.transpose() * F)).eval();
+  return {F.head<3>(), F.tail<3>(), r.scale, r.center};
+}
+
 std::vector<std::vector<double>> floating_motions(const TriMesh& surface,
                                                   const std::vector<BoundaryKind>& kinds) {
   const std::vector<int> part = connected_parts(surface);
-  std::vector<std::vector<std::size_t>> nodes;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (static_cast<std::size_t>(part[i]) >= nodes.size()) nodes.emplace_back();
+  const std::vector<double> volume = volume_of_parts(surface, part);
+  const std::vector<Mat3> held = held_at_nodes(surface, kinds);
+  std::vector<std::vector<std::size_t>> nodes(volume.size());
+  for (std::size_t i = 0; i < part.size(); ++i)
     nodes[part[i]].push_back(i);
-  }
-  std::vector<char> held(nodes.size(), 0);
-  for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-    if (kinds[t] == BoundaryKind::displacement) held[part[surface.corners[TriId(t)][0].index()]] = 1;
   std::vector<std::vector<double>> modes;
-  for (std::size_t p = 0; p < nodes.size(); ++p)
-    if (!held[p]) add_motions(surface, nodes[p], modes);
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    Vec3 center = Vec3::Zero();
+    for (std::size_t i : nodes[p])
+      center += surface.positions[NodeId(i)] / static_cast<double>(nodes[p].size());
+    std::vector<char> counts(part.size());  // a body is held by its cavities, too
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto of = static_cast<std::size_t>(part[i]);
+      counts[i] = of == p || (volume[p] > 0 && volume[of] < 0);
+    }
+    add_motions(surface, nodes[p], center,
+                motions_left(surface, held, counts, center, bounding_box(surface).diagonal()), modes);
+  }
   return modes;
 }
 

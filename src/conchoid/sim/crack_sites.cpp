@@ -91,7 +91,7 @@ std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, c
   std::vector<InitiationCandidate> out;
   const std::vector<Mat3> stress = body.surface_stress();
   for (std::size_t t = 0; t < stress.size(); ++t) {
-    if (cut[t] || body.body().kinds()[t] == BoundaryKind::displacement) continue;
+    if (cut[t] || prepared.quiet[t] || body.body().kinds()[t].holds_all()) continue;
     const PrincipalStress p = principal_stress(stress[t]);
     const Vec3 n = unit_normal(prepared.surface, TriId(t));
     if (std::abs(p.direction.col(0).dot(n)) > kAlongSurface) continue;

@@ -13,6 +13,7 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
+#include "conchoid/sim/clamp_edges.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/nearly_through.hpp"
 #include "conchoid/sim/resolved_points.hpp"
@@ -199,6 +200,7 @@ bool Fracture::State::start_crack(StepReport& report) {
   if (sites.empty()) return false;
   append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(sites[0])));
   ++new_cracks;
+  if (const auto said = clamp_warning(*body, sites[0].center)) report.warnings.push_back(*said);
   if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
   fine.append_parts(crack.sheet);
   if (visible) visible->append_parts(crack.sheet);

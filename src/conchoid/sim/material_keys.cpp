@@ -8,27 +8,13 @@
 namespace conchoid {
 namespace {
 
-constexpr double kSquare = 1e-6;  // cosine of axes that count as being at right angles
-
 FieldPlacement read_placement(const TomlTable& table, const std::string& name) {
   FieldPlacement placement;
   if (table.has("origin")) {
     placement.origin = Vec3::Zero();
     table.read("origin", *placement.origin);
   }
-  std::vector<std::vector<double>> axes;
-  table.read("axes", axes);
-  if (axes.empty()) return placement;
-  if (axes.size() != 3)
-    table.fail("axes", fmt::format("{}.axes holds {} vectors, but must hold 3", name, axes.size()));
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 axis(axes[k][0], axes[k][1], axes[k][2]);
-    if (axis.isZero(0)) table.fail("axes", fmt::format("{}.axes holds (0, 0, 0); give directions", name));
-    placement.axes.col(k) = axis / axis.norm();
-  }
-  const Mat3 products = placement.axes.transpose() * placement.axes;
-  if ((products - Mat3::Identity()).cwiseAbs().maxCoeff() > kSquare)
-    table.fail("axes", fmt::format("{}.axes are not at right angles; correct them", name));
+  placement.axes = read_axes(table, name);
   return placement;
 }
 

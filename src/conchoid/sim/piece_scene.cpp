@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/bem/body_force.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/remesh/remesh.hpp"
+#include "conchoid/sim/spread_force.hpp"
 
 namespace conchoid {
 namespace {
@@ -13,13 +15,6 @@ namespace {
 constexpr int kFewestElements = 120;                   // of a piece, however small: as the built-in cube
 constexpr std::array kTargets{1.0, 1.4, 2.0};          // × the elements wanted, until the mesh can be made
 constexpr int kMostElements = 200000, kFewFaces = 20;  // that remesh() takes
-
-double area_of(const TriMesh& surface, const Region& region) {
-  double area = 0;
-  for (const TriId t : region.triangles)
-    area += area_vector(surface, t).norm();
-  return area;
-}
 
 TriMesh elements_of(const TriMesh& piece, double element_area) {
   const double wanted = std::max<double>(kFewestElements, surface_area(piece) / element_area);
@@ -85,11 +80,17 @@ PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fr
   for (BoundaryCondition condition : scene.boundary) {
     if (!find_region(out.body.regions, condition.region)) continue;
     if (condition.kind == ConditionKind::force) {
+      const LinearTraction spread =
+          spread_force(body.surface, *find_region(body.regions, condition.region), condition);
       condition.kind = ConditionKind::traction;
-      condition.value /= area_of(body.surface, *find_region(body.regions, condition.region));
+      condition.value = spread.traction;
+      condition.twist = spread.twist;
+      condition.about = spread.about + body.origin;
     }
     out.scene.boundary.push_back(condition);
   }
+  if (BodyForceSpec& force = out.scene.body_force; !force.on_axis)
+    force.on_axis = volume_moments(body.surface).center + body.origin;
   out.scene.resolution = {body.crack_edge, body.surface_edge};
   out.scene.run.inertia_relief = true;
   return out;
@@ -97,15 +98,19 @@ PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fr
 
 bool is_loaded(const Scene& scene) {
   const BoundaryCondition* held = nullptr;
+  bool moved = false, alike = true;
   for (const BoundaryCondition& c : scene.boundary) {
     if (c.kind != ConditionKind::displacement) {
-      if (!c.value.isZero(0)) return true;
+      if (!c.value.isZero(0) || !c.moment.isZero(0) || !c.twist.isZero(0) || c.pressure != 0) return true;
       continue;
     }
-    if (held && held->value != c.value) return true;
+    if (!c.free_traction.isZero(0)) return true;
+    moved = moved || !c.value.isZero(0);
+    alike = alike && (!held || (held->value == c.value && held->held == c.held && held->axes == c.axes));
     held = &c;
   }
-  return false;
+  if (!scene.body_force.spin.isZero(0)) return true;
+  return (moved && !alike) || (held && !scene.body_force.gravity.isZero(0));
 }
 
 }  // namespace conchoid

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/initial_cracks.hpp"
 #include "conchoid/sim/resolution_floor.hpp"
@@ -77,6 +78,18 @@ void require_one_body(const Scene& scene, const TriMesh& surface) {
                     scene.body.where, bodies));
 }
 
+// The file's materials on the boundary elements: that of the nearest triangle of the detailed body.
+SurfaceAttributes element_materials(const Body& body) {
+  SurfaceAttributes out;
+  if (body.attributes.material.empty()) return out;
+  out.materials = body.attributes.materials;
+  const ClosestPointTree detailed(body.detailed);
+  for (std::size_t t = 0; t < body.surface.triangle_count(); ++t)
+    out.material.push_back(
+        body.attributes.material[detailed.closest(centroid(body.surface, TriId(t))).triangle.index()]);
+  return out;
+}
+
 }  // namespace
 
 Body scene_body(const Scene& scene) {
@@ -88,7 +101,12 @@ Body scene_body(const Scene& scene) {
 PreparedBody prepare(const Scene& scene, Body body) {
   PreparedBody out;
   if (!body.infinite()) {
-    out.regions = scene_regions(scene, body.surface, body.regions);
+    out.regions = scene_regions(scene, body.surface, body.regions, element_materials(body));
+    out.quiet.assign(body.surface.triangle_count(), 0);
+    for (const std::string& name : scene.quiet_regions)
+      if (const Region* region = find_region(out.regions, name))
+        for (TriId t : region->triangles)
+          out.quiet[t.index()] = 1;
     out.origin = bounding_box(body.detailed).center();
   }
   out.pieces = body.infinite() ? body.material : frame_of_pieces(body);

@@ -21,6 +21,7 @@ struct PreparedBody {
   IdVector<NodeId, Vec3> scene_positions;  ///< nodes of `detailed` in the body's coordinates, bit for bit
   SurfaceAttributes attributes;            ///< of `detailed`
   std::vector<Region> regions;             ///< of `surface`
+  std::vector<char> quiet;                 ///< per triangle of `surface`: no crack starts there
   std::vector<TriMesh> cracks;  ///< initial crack sheets; those that end on the surface stick out of it
   MaterialSpec material;        ///< constants
   MaterialField toughness;      ///< factor on the material's toughness, at centred points
@@ -47,7 +48,7 @@ PreparedBody prepare(const Scene& scene);
 /// conditions of other kinds than those it was prepared for.
 LoadCase load_of(const Scene& scene, const PreparedBody& body);
 
-/// Which quantity the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.
+/// Which components of the displacement the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.
 std::vector<BoundaryKind> kinds_of(const Scene& scene, const PreparedBody& body);
 
 }  // namespace conchoid

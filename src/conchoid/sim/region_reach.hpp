@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "conchoid/mesh/regions.hpp"
+#include "conchoid/mesh/region_rules.hpp"
 
 namespace conchoid {
 

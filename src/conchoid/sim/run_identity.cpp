@@ -112,8 +112,12 @@ std::string run_identity(const Scene& scene, const PreparedBody& body, const Loa
   add(hash, body.material);
   add(hash, body.pieces);
   hash.add(std::array{body.crack_edge, body.surface_edge});
-  for (const BoundaryKind kind : body.elastic->kinds())
-    hash.add(static_cast<std::uint64_t>(kind));
+  for (const BoundaryKind& kind : body.elastic->kinds()) {
+    hash.add(static_cast<std::uint64_t>(kind.holds_all()));
+    if (kind.holds_all() || kind.holds_nothing()) continue;
+    const Mat3 H = kind.held();
+    hash.add(std::span<const double>(H.data(), 9));
+  }
   add(hash, load, body.surface);
   add(hash, scene.run);
   return hash.hex();

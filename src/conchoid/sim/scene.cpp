@@ -11,7 +11,6 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/material/library.hpp"
 #include "conchoid/mesh/models.hpp"
-#include "conchoid/sim/region_reach.hpp"
 #include "conchoid/sim/scene_parser.hpp"
 #include "conchoid/sim/settings.hpp"
 
@@ -26,18 +25,6 @@ std::optional<T> optional_value(const TomlTable& table, std::string_view key) {
   T value{};
   table.read(key, value);
   return value;
-}
-
-/// Keys of a table that exclude each other: exactly one must be there. Returns it.
-std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
-                        std::string_view what) {
-  std::vector<std::string_view> given;
-  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](auto key) { return table.has(key); });
-  if (given.empty()) table.fail({}, fmt::format("{} needs one of {}; add it", what, fmt::join(keys, ", ")));
-  if (given.size() > 1)
-    table.fail(given[1], fmt::format("{} has {}; they contradict each other, keep one", what,
-                                     fmt::join(given, " and ")));
-  return given.front();
 }
 
 BodySpec read_body(const TomlTable& file, const fs::path& folder) {
@@ -102,68 +89,6 @@ ResolutionSpec read_resolution(const TomlTable& file) {
                 fmt::format("resolution.surface = {} is coarser than resolution.crack = {}; make it smaller",
                             *resolution.surface, *resolution.crack));
   return resolution;
-}
-
-SceneRegion read_region(const TomlTable& table) {
-  table.require_known_keys();
-  SceneRegion region{.rule = {}, .where = table.where()};
-  table.require("name", region.rule.name);
-  std::vector<std::vector<double>> rows;
-  table.require("half_spaces", rows);
-  for (const auto& row : rows) {
-    const HalfSpace half{.normal = {row[0], row[1], row[2]}, .offset = row[3]};
-    if (half.normal.isZero(0))
-      table.fail("half_spaces", "a half space has the normal (0, 0, 0); give its direction");
-    region.rule.half_spaces.push_back(half);
-  }
-  return region;
-}
-
-void read_regions(const TomlTable& file, Scene& scene) {
-  for (const TomlTable& table : file.tables("region")) {
-    SceneRegion region = read_region(table);
-    for (const SceneRegion& other : scene.regions)
-      if (other.rule.name == region.rule.name)
-        table.fail("name", fmt::format("the region \"{}\" is already defined at {}; rename one of them",
-                                       region.rule.name, other.where));
-    scene.regions.push_back(std::move(region));
-  }
-}
-
-BoundaryCondition read_condition(const TomlTable& table) {
-  table.require_known_keys();
-  BoundaryCondition condition{.region = {}, .where = table.where()};
-  table.require("region", condition.region);
-  const std::string_view key = one_of(table, {"traction", "force", "displacement", "fixed"}, "[[boundary]]");
-  if (key == "fixed") {
-    bool fixed = false;
-    table.read("fixed", fixed);
-    if (!fixed)
-      table.fail("fixed", "fixed = false says nothing; remove this [[boundary]] or write fixed = true");
-    condition.kind = ConditionKind::displacement;
-    return condition;
-  }
-  condition.kind = key == "traction" ? ConditionKind::traction
-                   : key == "force"  ? ConditionKind::force
-                                     : ConditionKind::displacement;
-  table.read(key, condition.value);
-  return condition;
-}
-
-void read_boundary(const TomlTable& file, Scene& scene) {
-  for (const TomlTable& table : file.tables("boundary")) {
-    BoundaryCondition condition = read_condition(table);
-    if (scene.body.infinite())
-      table.fail(
-          {},
-          "[[boundary]] does not go with model = \"infinite\", which has no surface; use [remote_stress]");
-    require_region(scene, condition.region, table, "region");
-    for (const BoundaryCondition& other : scene.boundary)
-      if (other.region == condition.region)
-        table.fail("region", fmt::format("the region \"{}\" already has a condition at {}; keep one of them",
-                                         condition.region, other.where));
-    scene.boundary.push_back(std::move(condition));
-  }
 }
 
 Vec3 read_direction(const TomlTable& table, std::string_view key) {
@@ -293,6 +218,36 @@ fs::path existing_file(const TomlTable& table, std::string_view key, const fs::p
   return path;
 }
 
+std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
+                        std::string_view what) {
+  std::vector<std::string_view> given;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(given), [&](auto key) { return table.has(key); });
+  if (given.empty()) table.fail({}, fmt::format("{} needs one of {}; add it", what, fmt::join(keys, ", ")));
+  if (given.size() > 1)
+    table.fail(given[1], fmt::format("{} has {}; they contradict each other, keep one", what,
+                                     fmt::join(given, " and ")));
+  return given.front();
+}
+
+Mat3 read_axes(const TomlTable& table, std::string_view name) {
+  constexpr double square = 1e-6;  // cosine of axes that count as being at right angles
+  Mat3 out = Mat3::Identity();
+  std::vector<std::vector<double>> axes;
+  table.read("axes", axes);
+  if (axes.empty()) return out;
+  if (axes.size() != 3)
+    table.fail("axes", fmt::format("{}.axes holds {} vectors, but must hold 3", name, axes.size()));
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis(axes[k][0], axes[k][1], axes[k][2]);
+    if (axis.isZero(0)) table.fail("axes", fmt::format("{}.axes holds (0, 0, 0); give directions", name));
+    out.col(k) = axis / axis.norm();
+  }
+  const Mat3 products = out.transpose() * out;
+  if ((products - Mat3::Identity()).cwiseAbs().maxCoeff() > square)
+    table.fail("axes", fmt::format("{}.axes are not at right angles; correct them", name));
+  return out;
+}
+
 /// Keys that belong to another kind are contradictions.
 void require_keys_of_kind(
     const TomlTable& table, std::string_view name, const std::string& kind,
@@ -335,6 +290,7 @@ Scene scene_from(const TomlTable& file, const std::string& name, const fs::path&
   scene.resolution = read_resolution(file);
   read_regions(file, scene);
   read_boundary(file, scene);
+  read_body_force(file, scene);
   for (const TomlTable& table : file.tables("crack"))
     scene.cracks.push_back(read_crack(table, folder));
   scene.remote_stress = read_remote_stress(file, scene);
@@ -358,25 +314,11 @@ Scene read_scene(const fs::path& path) {
   return parse_scene(read_text_file(path), path.string(), path.parent_path());
 }
 
-std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
-                                  const std::vector<Region>& model_regions) {
-  std::vector<RegionRule> rules;
-  for (const SceneRegion& region : scene.regions)
-    rules.push_back(region.rule);
-  std::vector<Region> regions = select_regions(surface, rules);
-  for (std::size_t i = 0; i < regions.size(); ++i)
-    if (regions[i].triangles.empty())
-      throw InputError(
-          fmt::format("{}: the region \"{}\" has no triangles: none has all three vertices in its half "
-                      "spaces, or an earlier region took them; move the half spaces ({})",
-                      scene.regions[i].where, regions[i].name, reach_text(rules[i], surface)));
-  const IdVector<TriId, int> taken = region_of_triangles(surface, regions);
-  for (Region region : model_regions) {
-    if (find_region(regions, region.name)) continue;
-    std::erase_if(region.triangles, [&](TriId t) { return taken[t] >= 0; });
-    regions.push_back(std::move(region));
-  }
-  return regions;
+std::vector<Vec3> BoundaryCondition::held_directions() const {
+  std::vector<Vec3> directions;
+  for (int k = 0; k < 3; ++k)
+    if (held[static_cast<std::size_t>(k)]) directions.emplace_back(axes.col(k));
+  return directions;
 }
 
 }  // namespace conchoid

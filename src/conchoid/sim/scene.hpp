@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -10,7 +11,7 @@
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 #include "conchoid/material/material_field.hpp"
-#include "conchoid/mesh/regions.hpp"
+#include "conchoid/mesh/region_rules.hpp"
 #include "conchoid/sim/output_spec.hpp"
 
 namespace conchoid {
@@ -51,16 +52,34 @@ struct ResolutionSpec {
 
 struct SceneRegion {
   RegionRule rule;
+  bool initiation = true;  ///< whether cracks may start there
   std::string where;
 };
 
-enum class ConditionKind { traction, force, displacement };
+enum class ConditionKind { traction, force, pressure, displacement };
 
+/// What acts on a region. Vectors are in the scene's axes: those of the file are turned when it is read.
 struct BoundaryCondition {
   std::string region;
   ConditionKind kind = ConditionKind::traction;
   Vec3 value = Vec3::Zero();  ///< [Pa], [N] or [m]; fixed = true is a displacement of zero
   std::string where;
+  std::array<bool, 3> held{true, true, true};  ///< displacement: along which of the axes it is prescribed
+  Mat3 axes = Mat3::Identity();                ///< displacement: columns, orthonormal
+  Vec3 free_traction = Vec3::Zero();           ///< displacement: in the other directions [Pa]
+  double pressure = 0;                         ///< pressure: along the inward normal [Pa]
+  Vec3 moment = Vec3::Zero();                  ///< force: about the centroid of the region [N m]
+  Vec3 twist = Vec3::Zero();                   ///< traction: t = value + twist × (x − about) [Pa/m]
+  Vec3 about = Vec3::Zero();                   ///< [m]
+
+  std::vector<Vec3> held_directions() const;
+};
+
+/// Forces on every part of the body, with the material's density.
+struct BodyForceSpec {
+  Vec3 gravity = Vec3::Zero();  ///< [m/s²]
+  Vec3 spin = Vec3::Zero();     ///< ω [rad/s]
+  std::optional<Vec3> on_axis;  ///< a point of the axis [m]; none: the centre of mass
 };
 
 enum class CrackKind { disc, ellipse, rectangle, mesh };
@@ -108,7 +127,9 @@ struct Scene {
   MaterialSpec material;
   ResolutionSpec resolution;
   std::vector<SceneRegion> regions;
+  std::vector<std::string> quiet_regions;  ///< names of those where no crack starts
   std::vector<BoundaryCondition> boundary;
+  BodyForceSpec body_force;
   std::vector<CrackSpec> cracks;
   /// Stress at infinity [Pa], for the infinite body.
   Mat3 remote_stress = Mat3::Zero();
@@ -124,7 +145,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
 /// Regions of the body's surface: those of the scene, then those of the built-in model for the triangles left
 /// (a region of the scene replaces one of the model of the same name). `model_regions` is empty for mesh
 /// files. Throws InputError for a region of the scene that gets no triangle.
+/// @param attributes  of the surface: its materials
 std::vector<Region> scene_regions(const Scene& scene, const TriMesh& surface,
-                                  const std::vector<Region>& model_regions);
+                                  const std::vector<Region>& model_regions,
+                                  const SurfaceAttributes& attributes = {});
 
 }  // namespace conchoid

@@ -24,6 +24,24 @@ void require_keys_of_kind(
 std::vector<FieldFactor> read_material_field(const TomlTable& material, std::string_view key,
                                              const std::filesystem::path& folder);
 
+/// Keys of a table that exclude each other: exactly one must be there. Returns it.
+/// @param what  the table, for messages
+std::string_view one_of(const TomlTable& table, const std::vector<std::string_view>& keys,
+                        std::string_view what);
+
+/// The key `axes`: three directions at right angles, of any length, as the columns of a rotation (or of one with
+/// a mirror). The identity without the key. @param name  of the table, for messages
+Mat3 read_axes(const TomlTable& table, std::string_view name);
+
+/// The tables [[region]] (region_keys.cpp).
+void read_regions(const TomlTable& file, Scene& scene);
+
+/// The tables [[boundary]] (boundary_keys.cpp). The scene must have its body and regions.
+void read_boundary(const TomlTable& file, Scene& scene);
+
+/// The table [body_force] (boundary_keys.cpp).
+void read_body_force(const TomlTable& file, Scene& scene);
+
 /// The scene in a parsed file; tables and keys that do not belong to scenes are not looked at.
 Scene scene_from(const TomlTable& file, const std::string& name, const std::filesystem::path& folder);
 

@@ -23,6 +23,8 @@ std::string_view type_name(const Setting& s) {
       return "file";
     case SettingType::numbers:
       return "numbers";
+    case SettingType::components:
+      return "numbers or \"free\"";
     case SettingType::vectors:
       return "list of numbers";
     case SettingType::texts:

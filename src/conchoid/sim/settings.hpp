@@ -7,7 +7,7 @@
 
 namespace conchoid {
 
-enum class SettingType { number, integer, boolean, text, file, numbers, vectors, texts };
+enum class SettingType { number, integer, boolean, text, file, numbers, components, vectors, texts };
 
 /// Allowed values of a number: low … high, each end included or not.
 struct SettingRange {

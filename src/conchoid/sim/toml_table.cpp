@@ -226,6 +226,23 @@ void TomlTable::read(std::string_view key, std::vector<double>& value) const {
   value = numbers;
 }
 
+void TomlTable::read(std::string_view key, std::array<std::optional<double>, 3>& value) const {
+  const toml::node* node = content_->table->get(key);
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  const auto refuse = [&] {
+    fail(key,
+         fmt::format("{} must be a list of 3 finite numbers, \"free\" where a component is not prescribed",
+                     content_->path(key)));
+  };
+  if (!array || array->size() != 3) refuse();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const toml::node& element = (*array)[k];
+    value[k] = element.is_number() ? element.value<double>() : std::nullopt;
+    if (value[k] ? !std::isfinite(*value[k]) : element.value<std::string>() != "free") refuse();
+  }
+}
+
 void TomlTable::read(std::string_view key, Vec3& value) const {
   std::vector<double> numbers(value.data(), value.data() + 3);
   read(key, numbers);

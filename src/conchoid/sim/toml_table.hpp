@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,8 @@ class TomlTable {
   void read(std::string_view key, bool& value) const;
   void read(std::string_view key, std::string& value) const;
   void read(std::string_view key, Vec3& value) const;
+  /// Components that are "free" come out as none.
+  void read(std::string_view key, std::array<std::optional<double>, 3>& value) const;
   void read(std::string_view key, std::vector<double>& value) const;
   void read(std::string_view key, std::vector<std::vector<double>>& value) const;
   void read(std::string_view key, std::vector<std::string>& value) const;
