@@ -68,7 +68,7 @@ std::string draw_scene(std::uint64_t seed, const test::TemporaryFolder& folder) 
          draw_field(random, body.size) + test::resolution_text(crack, crack * random.uniform(0.12, 0.25)) +
          test::boundary_text(body.pulled, "traction", load) +
          test::boundary_text(body.opposite, "traction", -load) +
-         fmt::format("[run]\nafter_separation = 'stop'\ninertia_relief = true\nframes = {}\nmax_cracks = {}\n",
+         fmt::format("[run]\ninertia_relief = true\nframes = {}\nmax_cracks = {}\n",
                      static_cast<int>(random.uniform(3, 10)), static_cast<int>(random.uniform(1, 4)));
 }
 

@@ -184,6 +184,8 @@ inline constexpr double kLongestBridgeEdge = 2.2;
 inline constexpr double kLongestBridgeOutside = 3.2;
 /// × h: longest edge of a fine bridge, that of the markers' spacing.
 inline constexpr double kLongestFineBridgeEdge = 1.5;
+/// × (length of a stretch of coarse nodes + r̄): a longer row of markers goes round the rest of the front.
+inline constexpr double kLongestStretch = 2;
 /// Nodes inside the body between two outside that are a last ligament at most; more are a front.
 inline constexpr std::size_t kLastLigamentNodes = 5;
 /// Nodes between two stretches that are taken into the bridge; of more the front keeps a hole that grows shut.

@@ -9,9 +9,9 @@
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
-#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/sim/broken_pieces.hpp"
 #include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/sim/mended_fragment.hpp"
 #include "conchoid/sim/piece_scene.hpp"
 #include "conchoid/surface/separation.hpp"
 
@@ -43,12 +43,6 @@ double volume_off(const Fracture& fracture) {
   for (const double v : volume)
     sum += v;
   return sum - *std::max_element(volume.begin(), volume.end());
-}
-
-// A piece that was cut before has rounded nodes: a crack that runs along its new faces may fold them.
-bool are_solids(const std::vector<Fragment>& fragments) {
-  return std::all_of(fragments.begin(), fragments.end(),
-                     [](const Fragment& f) { return f.watertight && self_intersections(f.mesh, 1).empty(); });
 }
 
 // Hands on what a body does; of a piece nothing before the first frame in which it moves.
@@ -122,6 +116,7 @@ struct Breakup::State {
   bool ended = false;
 
   std::size_t old_cracks, new_cracks = 0;  // of bodies that have ended
+  std::size_t spent_on_chips = 0;          // of these
   int frame = 0;
   std::size_t triangles = 0, bodies = 1;
   Relay relay;
@@ -143,7 +138,7 @@ struct Breakup::State {
 
   std::size_t cracks_left() const {
     const auto allowed = static_cast<std::size_t>(run.max_cracks);
-    return allowed - std::min(allowed, new_cracks);
+    return allowed - std::min(allowed, new_cracks - spent_on_chips);
   }
   bool few_enough() const {
     return run.max_fragments == 0 || pieces->count() < static_cast<std::size_t>(run.max_fragments);
@@ -159,6 +154,8 @@ struct Breakup::State {
   bool begin_next();
   bool begin_piece(Waiting& piece);
   bool may_break(const Fragment& piece) const;
+  bool is_chip(const Fragment& piece) const { return piece.volume < run.smallest_body * volume; }
+  void forgive_chips(const std::vector<Fragment>& cut);
   void wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most);
   void end_body(StopReason reason);
   void end_without_chips(StopReason reason);
@@ -186,6 +183,13 @@ bool Breakup::State::may_break(const Fragment& piece) const {
   const double r = body->crack_edge;
   return piece.volume >= std::max(run.smallest_body * volume, kSmallestVolume * r * r * r) &&
          (cracks_left() > 0 || !piece.unfinished.sheets.empty());
+}
+
+// Cracks that took off no more than chips leave others to start.
+void Breakup::State::forgive_chips(const std::vector<Fragment>& cut) {
+  if (cut.size() > 1 &&
+      std::all_of(cut.begin() + 1, cut.end(), [&](const Fragment& f) { return is_chip(f); }))
+    spent_on_chips += std::min(cut.size() - 1, fracture->new_cracks());
 }
 
 void Breakup::State::wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most) {
@@ -257,13 +261,17 @@ void Breakup::State::end_first(StopReason reason) {
   const std::vector<Fragment> raw = goes_on && count > 1 ? cut.fragments : std::vector<Fragment>{};
   pieces.emplace(body, std::move(cut), output);
   if (may_go_on(reason)) return;
+  forgive_chips(raw);
   wait(raw, 0, raw.size());
 }
 
 void Breakup::State::end_piece() {
   if (!grown() || interrupted()) return;
   Pieces cut = cut_into_pieces(*fracture, output);
-  if (!are_solids(cut.fragments)) {
+  for (Fragment& f : cut.fragments)
+    if (!is_solid(f)) mend_fragment(f);
+  if (!std::all_of(cut.fragments.begin(), cut.fragments.end(),
+                   [](const Fragment& f) { return is_solid(f); })) {
     warnings.push_back(
         fmt::format("after frame {}: what broke further in a piece could not be cut out of it cleanly; the "
                     "piece is left as it was before, and its cracks are seen in the frames only",
@@ -271,6 +279,7 @@ void Breakup::State::end_piece() {
     return;
   }
   const std::vector<Fragment> raw = cut.fragments;
+  forgive_chips(raw);
   const std::size_t first = pieces->replace(*id, std::move(cut));
   if (raw.size() > 1) wait(raw, first, raw.size());
 }

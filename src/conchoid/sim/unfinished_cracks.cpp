@@ -14,7 +14,8 @@ namespace conchoid {
 namespace {
 
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
-constexpr double kNearFace = 0.5;   // … × r̄: and how near to it
+constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
+constexpr double kLift = 0.15;      // × r̄: to which it leaves such a face
 
 // The faces that cut the piece free, as a mesh; without triangles if there are none.
 TriMesh cut_faces(const Fragment& piece, const TriMesh& solid) {
@@ -27,35 +28,75 @@ TriMesh cut_faces(const Fragment& piece, const TriMesh& solid) {
   return submesh(solid, faces);
 }
 
-// Sheet triangles that do not lie along those faces.
-std::vector<char> apart_from(const TriMesh& faces, const TriMesh& sheet, double crack_edge) {
-  std::vector<char> apart(sheet.triangle_count(), 1);
-  if (faces.corners.empty()) return apart;
-  const ClosestPointTree tree(faces);
-  for (std::size_t t = 0; t < apart.size(); ++t) {
-    const auto hit = tree.closest(centroid(sheet, TriId(t)));
-    const double near = kNearFace * crack_edge;
-    const double cosine = unit_normal(faces, hit.triangle).dot(unit_normal(sheet, TriId(t)));
-    apart[t] = hit.squared_distance > near * near || std::abs(cosine) < kAlongFace;
+// A sheet as it goes on in the piece.
+class SheetInPiece {
+ public:
+  SheetInPiece(const CrackSheet& sheet, const Fragment& piece, const TriMesh& solid, double crack_edge)
+      : mesh_(sheet.mesh),
+        solid_(solid),
+        faces_(cut_faces(piece, solid)),
+        tree_(faces_),
+        crack_edge_(crack_edge) {
+    IdVector<NodeId, Vec3> normals(mesh_.node_count(), Vec3::Zero());
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+      for (const NodeId n : mesh_.corners[TriId(t)])
+        normals[n] += area_vector(mesh_, TriId(t));
+    for (std::size_t i = 0; i < mesh_.node_count(); ++i) {
+      const NodeId n(i);
+      along_.push_back(lies_along(mesh_.positions[n], normals[n]));
+      deep_.push_back(!along_[n] && winding_number(solid_, mesh_.positions[n]) > 0.5);
+    }
   }
-  return apart;
-}
 
-// Triangles inside of the piece and those around them that stick out.
-std::vector<TriId> in_and_around(const TriMesh& sheet, const TriMesh& solid, const std::vector<char>& apart) {
-  IdVector<NodeId, char> inside(sheet.node_count(), 0);
-  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-    if (apart[t] && winding_number(solid, centroid(sheet, TriId(t))) > 0.5)
-      for (const NodeId n : sheet.corners[TriId(t)])
-        inside[n] = 1;
-  std::vector<TriId> kept;
-  for (std::size_t t = 0; t < sheet.triangle_count(); ++t) {
-    const auto& c = sheet.corners[TriId(t)];
-    if (apart[t] && std::any_of(c.begin(), c.end(), [&](NodeId n) { return inside[n]; }))
-      kept.emplace_back(t);
+  // Triangles that reach into the material, and those around them; where they would lie in a face along which the
+  // piece came off they leave the material instead.
+  TriMesh part() {
+    std::vector<TriId> kept;
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (reaches_in(TriId(t))) kept.emplace_back(t);
+    TriMesh moved = mesh_;
+    for (std::size_t i = 0; i < mesh_.node_count(); ++i)
+      if (along_[NodeId(i)]) moved.positions[NodeId(i)] = lifted(mesh_.positions[NodeId(i)]);
+    return submesh(moved, kept);
   }
-  return kept;
-}
+
+ private:
+  bool lies_along(const Vec3& x, const Vec3& normal) const {
+    if (faces_.corners.empty()) return false;
+    const auto hit = tree_.closest(x);
+    const double near = kNearFace * crack_edge_;
+    return hit.squared_distance < near * near &&
+           std::abs(unit_normal(faces_, hit.triangle).dot(normal)) >= kAlongFace * normal.norm();
+  }
+
+  // A node in the material, or a triangle across a corner of it.
+  bool reaches_in(TriId t) const {
+    const auto& c = mesh_.corners[t];
+    if (std::any_of(c.begin(), c.end(), [&](NodeId n) { return deep_[n]; })) return true;
+    return std::none_of(c.begin(), c.end(), [&](NodeId n) { return along_[n]; }) &&
+           winding_number(solid_, centroid(mesh_, t)) > 0.5;
+  }
+
+  // Over the face, beyond where it begins.
+  Vec3 lifted(const Vec3& x) const {
+    const auto hit = tree_.closest(x);
+    const Vec3 n = unit_normal(faces_, hit.triangle);
+    Vec3 beyond = hit.point - x;
+    beyond -= beyond.dot(n) * n;
+    if (const double length = beyond.norm(); length > kLift * crack_edge_)
+      beyond /= length;
+    else
+      beyond.setZero();
+    return hit.point + kLift * crack_edge_ * (n + beyond);
+  }
+
+  const TriMesh& mesh_;
+  const TriMesh& solid_;
+  TriMesh faces_;
+  ClosestPointTree tree_;
+  double crack_edge_;
+  IdVector<NodeId, char> along_, deep_;
+};
 
 bool has_front_inside(const TriMesh& solid, const TriMesh& sheet) {
   const CutComplex cut = corefine(solid, sheet);
@@ -67,8 +108,7 @@ bool has_front_inside(const TriMesh& solid, const TriMesh& sheet) {
 std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge) {
   if (piece.unfinished.solid.corners.empty()) return {};  // no slit: nothing ends in it
   const TriMesh& solid = piece.unfinished.solid;
-  const std::vector<char> apart = apart_from(cut_faces(piece, solid), sheet.mesh, crack_edge);
-  const TriMesh kept = embedded_part(submesh(sheet.mesh, in_and_around(sheet.mesh, solid, apart)));
+  const TriMesh kept = embedded_part(SheetInPiece(sheet, piece, solid, crack_edge).part());
   std::vector<TriMesh> out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);

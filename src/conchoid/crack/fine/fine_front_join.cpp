@@ -165,12 +165,27 @@ MarkerLinks numbered(const std::vector<MarkerCurve>& curves, const JoinedFronts&
   return out;
 }
 
-/// Numbers of the markers along a stretch of coarse nodes.
-std::vector<std::size_t> stretch(const CrackSheet& sheet, const MarkerCurve& curve, const FrontChain& chain,
-                                 const std::vector<NodeId>& nodes) {
-  const std::size_t from = marker_at(curve, nodes.front(), sheet.mesh.positions[nodes.front()]);
-  const std::size_t to = marker_at(curve, nodes.back(), sheet.mesh.positions[nodes.back()]);
-  return places_between(chain, from, to);
+template <class PositionOf, class List>
+double length_along(const List& list, const PositionOf& position_of) {
+  double length = 0;
+  for (std::size_t i = 1; i < list.size(); ++i)
+    length += (position_of(list[i]) - position_of(list[i - 1])).norm();
+  return length;
+}
+
+/// Numbers of the markers along a stretch of coarse nodes. Empty where the markers do not follow it: a node without a
+/// marker of its own, whose nearest one lies elsewhere on the front, would take the long way round.
+std::vector<std::size_t> stretch(const CrackSheet& sheet, const MarkerLinks& links, const MarkerCurve& curve,
+                                 const FrontChain& chain, const std::vector<NodeId>& nodes,
+                                 double resolution) {
+  const auto& x = sheet.mesh.positions;
+  const std::vector<std::size_t> between =
+      places_between(chain, marker_at(curve, nodes.front(), x[nodes.front()]),
+                     marker_at(curve, nodes.back(), x[nodes.back()]));
+  const double coarse = length_along(nodes, [&](NodeId n) { return x[n]; });
+  const double fine = length_along(between, [&](std::size_t i) { return links.markers[i].position; });
+  if (fine > kLongestStretch * (coarse + resolution)) return {};
+  return between;
 }
 
 /// The markers along a coarse front: the first chain with a node of it attached; empty if there is none.
@@ -216,9 +231,11 @@ void FineFront::join(const CrackSheet& sheet, const FrontJoint& joint, const Joi
   const MarkerCurve first = curves_[joined.first], second = curves_[joined.second];
   MarkerLinks links = numbered(curves_, joined);
   const std::vector<std::size_t> a =
-      stretch(sheet, first, links.chains[joined.first <= joined.second ? 0 : 1], joint.first);
+      stretch(sheet, links, first, links.chains[joined.first <= joined.second ? 0 : 1], joint.first,
+              settings_.resolution);
   const std::vector<std::size_t> b =
-      stretch(sheet, second, links.chains[joined.second <= joined.first ? 0 : 1], joint.second);
+      stretch(sheet, links, second, links.chains[joined.second <= joined.first ? 0 : 1], joint.second,
+              settings_.resolution);
   if (a.size() > 1 && b.size() > 1) {
     const JointEnds ends = fill_ligament(links.last_nodes(a), links.last_nodes(b), first.part);
     links.restart(a.front(), joint.first.front());

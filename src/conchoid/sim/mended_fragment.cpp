@@ -1,0 +1,75 @@
+#include "conchoid/sim/mended_fragment.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/carry_attributes.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/remesh/mend.hpp"
+#include "conchoid/remesh/patch_intersections.hpp"
+#include "conchoid/surface/mass_properties.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double kMendedVolume = 1e-6;  // × volume of the piece
+constexpr int kMostRings = 3;           // of triangles around a fold
+
+bool is_solid(const TriMesh& mesh) {
+  return is_watertight(mesh) && self_intersections(mesh, 1).empty();
+}
+
+// Per triangle the one of another mesh that its middle is nearest to.
+std::vector<TriId> nearest_faces(const TriMesh& of, const TriMesh& on) {
+  const ClosestPointTree tree(on);
+  std::vector<TriId> nearest;
+  for (std::size_t t = 0; t < of.triangle_count(); ++t)
+    nearest.push_back(tree.closest(centroid(of, TriId(t))).triangle);
+  return nearest;
+}
+
+// The triangles around the folds made anew, as few as will do; else all that mending can do.
+std::optional<TriMesh> unfolded(const TriMesh& mesh) {
+  const double volume = enclosed_volume(mesh);
+  const auto good = [&](const TriMesh& tried) {
+    return is_solid(tried) && std::abs(enclosed_volume(tried) - volume) <= kMendedVolume * std::abs(volume);
+  };
+  for (int rings = 0; rings <= kMostRings; ++rings) {
+    TriMesh tried = mesh;
+    if (patch_intersections(tried, rings) == 0) break;
+    if (good(tried)) return tried;
+  }
+  MendReport report;
+  TriMesh tried = mended(mesh, report);
+  return good(tried) ? std::optional(std::move(tried)) : std::nullopt;
+}
+
+}  // namespace
+
+bool is_solid(const Fragment& fragment) {
+  return is_solid(fragment.mesh);
+}
+
+void mend_fragment(Fragment& f) {
+  std::optional<TriMesh> mesh = unfolded(f.mesh);
+  if (!mesh) return;
+  std::vector<FaceKind> kind;
+  std::vector<TriId> source;
+  for (const TriId t : nearest_faces(*mesh, f.mesh)) {
+    kind.push_back(f.face_kind[t.index()]);
+    source.push_back(f.source[t.index()]);
+  }
+  f.attributes = carried_over({f.mesh, f.attributes}, *mesh);
+  f.mesh = std::move(*mesh);
+  f.face_kind = std::move(kind);
+  f.source = std::move(source);
+  f.watertight = true;
+  UnfinishedCracks& cracks = f.unfinished;
+  if (cracks.solid.corners.empty()) return;
+  if (!is_solid(cracks.solid))
+    if (std::optional<TriMesh> solid = unfolded(cracks.solid)) cracks.solid = std::move(*solid);
+  cracks.solid_face = nearest_faces(cracks.solid, f.mesh);
+}
+
+}  // namespace conchoid

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "conchoid/surface/fragments.hpp"
+
+namespace conchoid {
+
+/// Whether a piece is closed and passes nowhere through itself.
+bool is_solid(const Fragment& fragment);
+
+/// A piece whose nodes, rounded where it was cut before, fold it over itself by less than can be seen: mended
+/// there (remesh/mend.hpp), what its faces are taken from the old ones nearest to them. Mass and volume stay as they
+/// were. Left as it is where that does not make it a solid, or where it would take more of its volume than
+/// kMendedVolume.
+void mend_fragment(Fragment& fragment);
+
+}  // namespace conchoid
