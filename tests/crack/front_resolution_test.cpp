@@ -58,6 +58,15 @@ TEST(FrontResolution, ReversedKShortensTheStep) {
   EXPECT_NEAR(resolved[2].limit(0.1), 0.1 * resolved[2].step, 1e-15);
 }
 
+// The elements' error in the largest K is more than a K of a hundredth of it, which tells no direction.
+TEST(FrontResolution, KFarBelowTheLargestTurnsNothing) {
+  const auto resolved = resolve({{100, 0, 0}, {50, 1, 0}, {20, 1, 0}, {5, 1, 0}, {1, 1, 0}}, false, 0.1);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(resolved[i].turn, 1);
+  EXPECT_NEAR(resolved[4].turn, std::pow(resolved[4].intensity.norm() / 5, 2), 1e-12);
+  EXPECT_LT(resolved[4].turn, 0.5);
+}
+
 TEST(FrontResolution, PressureHoldsUnlessSlidingKinksOutOfIt) {
   EXPECT_TRUE(resolve({{-3, 0, 0}})[0].pressed);
   EXPECT_TRUE(

@@ -137,7 +137,7 @@ TEST(PieceBody, AnUnfinishedCrackGoesOnInThePiece) {
   second.boundary.push_back({.region = "fracture", .kind = ConditionKind::displacement, .where = "the test"});
   const RunResult again = run_body(second, piece, quiet());
   EXPECT_EQ(again.document.stop, StopReason::separated);
-  ASSERT_EQ(again.fragments.size(), 2u);
+  ASSERT_GE(again.fragments.size(), 2u);
   EXPECT_GT(again.fragments[1].volume, 0.1);
   double nearest = 1;
   for (const Vec3& x : again.crack.positions)

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
+constexpr double kLeastArea = 1;    // × r̄²: of what goes on
 constexpr double kLift = 0.15;      // × r̄: to which it leaves such a face
 
 // The faces that cut the piece free, as a mesh; without triangles if there are none.
@@ -98,9 +99,12 @@ class SheetInPiece {
   IdVector<NodeId, char> along_, deep_;
 };
 
-bool has_front_inside(const TriMesh& solid, const TriMesh& sheet) {
+// Whether it goes on in the piece by more than a crumb of what has come apart.
+bool goes_on_inside(const TriMesh& solid, const TriMesh& sheet, double crack_edge) {
   const CutComplex cut = corefine(solid, sheet);
-  return !cut.sheet.empty() && !find_fronts({cut.positions, cut.sheet}, cut.mouth).empty();
+  const TriMesh inside{cut.positions, cut.sheet};
+  return surface_area(inside) > kLeastArea * crack_edge * crack_edge &&
+         !find_fronts(inside, cut.mouth).empty();
 }
 
 }  // namespace
@@ -112,7 +116,7 @@ std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& 
   std::vector<TriMesh> out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);
-    if (has_front_inside(solid, one)) out.push_back(std::move(one));
+    if (goes_on_inside(solid, one, crack_edge)) out.push_back(std::move(one));
   }
   return out;
 }

@@ -1,0 +1,71 @@
+#include "conchoid/sim/mended_fragment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/surface/mass_properties.hpp"
+
+namespace conchoid {
+namespace {
+
+/// A box whose top is a fracture face; one node in the middle of the top lies a hair across an edge of its neighbours.
+Fragment folded_box() {
+  Fragment f;
+  f.mesh = box_mesh(Vec3::Constant(1), 4, 4, 4);
+  const Box box = bounding_box(f.mesh);
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
+    const bool top = centroid(f.mesh, TriId(t)).z() > box.high.z() - 1e-9;
+    f.face_kind.push_back(top ? FaceKind::fracture : FaceKind::original);
+    f.source.emplace_back(t);
+  }
+  f.volume = enclosed_volume(f.mesh);
+  f.watertight = true;
+  // Divide one triangle of the top at a place just inside its edge, then push that place over the edge.
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
+    if (f.face_kind[t] != FaceKind::fracture) continue;
+    const auto c = f.mesh.corners[TriId(t)];
+    const Triangle x = f.mesh.triangle(TriId(t));
+    const Vec3 middle = 0.5 * (x[0] + x[1]);
+    if ((middle - box.center()).head<2>().cwiseAbs().maxCoeff() > 0.3) continue;
+    const Vec3 over = middle + 1e-7 * (middle - x[2]).normalized();
+    const NodeId n = f.mesh.positions.add(over);
+    f.mesh.corners[TriId(t)] = {c[0], c[1], n};
+    f.mesh.corners.push_back({c[1], c[2], n});
+    f.mesh.corners.push_back({c[2], c[0], n});
+    for (int k = 0; k < 2; ++k) {
+      f.face_kind.push_back(FaceKind::fracture);
+      f.source.emplace_back(t);
+    }
+    return f;
+  }
+  return f;
+}
+
+TEST(MendedFragment, AFoldIsTakenOutAndTheRestStays) {
+  Fragment f = folded_box();
+  ASSERT_FALSE(is_solid(f));
+  const double volume = enclosed_volume(f.mesh);
+  const std::size_t triangles = f.mesh.triangle_count();
+  mend_fragment(f);
+  EXPECT_TRUE(is_solid(f));
+  EXPECT_TRUE(f.watertight);
+  EXPECT_NEAR(enclosed_volume(f.mesh), volume, 1e-6);
+  EXPECT_NEAR(static_cast<double>(f.mesh.triangle_count()), static_cast<double>(triangles), 10);
+  ASSERT_EQ(f.face_kind.size(), f.mesh.triangle_count());
+  ASSERT_EQ(f.source.size(), f.mesh.triangle_count());
+  double fracture = 0;
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+    if (f.face_kind[t] == FaceKind::fracture) fracture += area_vector(f.mesh, TriId(t)).norm();
+  EXPECT_NEAR(fracture, 1, 1e-5);
+}
+
+TEST(MendedFragment, ASolidIsLeftAsItIs) {
+  Fragment f;
+  f.mesh = box_mesh(Vec3::Constant(1), 2, 2, 2);
+  EXPECT_TRUE(is_solid(f));
+}
+
+}  // namespace
+}  // namespace conchoid
