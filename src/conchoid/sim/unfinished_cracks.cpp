@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/front/front.hpp"
 #include "conchoid/intersect/corefine.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
@@ -43,9 +44,14 @@ std::vector<char> apart_from(const TriMesh& faces, const TriMesh& sheet, double 
 
 // Triangles inside of the piece and those around them that stick out.
 std::vector<TriId> in_and_around(const TriMesh& sheet, const TriMesh& solid, const std::vector<char>& apart) {
+  std::vector<char> within(sheet.triangle_count(), 0);
+  parallel_for(within.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      within[t] = apart[t] && winding_number(solid, centroid(sheet, TriId(t))) > 0.5;
+  });
   IdVector<NodeId, char> inside(sheet.node_count(), 0);
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-    if (apart[t] && winding_number(solid, centroid(sheet, TriId(t))) > 0.5)
+    if (within[t])
       for (const NodeId n : sheet.corners[TriId(t)])
         inside[n] = 1;
   std::vector<TriId> kept;
