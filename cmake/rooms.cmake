@@ -5,6 +5,10 @@ add_library(conchoid_settings INTERFACE)
 target_compile_features(conchoid_settings INTERFACE cxx_std_20)
 target_include_directories(conchoid_settings INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                        $<INSTALL_INTERFACE:include>)
+# Where a program that is linked with the library looks for its modules (core/module.hpp): the build's own are told by
+# CMAKE_BUILD_RPATH, ours when installed by INSTALL_RPATH.
+target_link_options(conchoid_settings INTERFACE
+  $<INSTALL_INTERFACE:-Wl,-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/conchoid>)
 # No contraction of a*b+c into fused operations: the same bits whatever the compiler inlines.
 target_compile_options(conchoid_settings INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -ffp-contract=off>)
@@ -90,6 +94,27 @@ function(conchoid_room name)
   endif()
 endfunction()
 
+# conchoid_module(NAME IF OPTION SOURCE file USES rooms whose code it takes a copy of LIBRARIES external targets)
+# One file of a room as a shared object of its own, loaded on first use (core/module.hpp). The room itself leaves it out, and
+# is told by this call, which comes first. In the build folder all lie in modules/, installed in lib/conchoid/.
+add_custom_target(conchoid_modules)
+function(conchoid_module name)
+  cmake_parse_arguments(MODULE "" "IF;SOURCE" "USES;LIBRARIES" ${ARGN})
+  set(CONCHOID_LEFT_OUT ${CONCHOID_LEFT_OUT} ${CMAKE_CURRENT_SOURCE_DIR}/${MODULE_SOURCE} PARENT_SCOPE)
+  if(NOT ${MODULE_IF})
+    file(REMOVE ${CONCHOID_MODULE_FOLDER}/${name}.so)  # of a build before
+    return()
+  endif()
+  add_library(${name} MODULE ${MODULE_SOURCE} ${PROJECT_BINARY_DIR}/module_version.cpp)
+  list(TRANSFORM MODULE_USES PREPEND conchoid_)
+  target_link_libraries(${name} PRIVATE conchoid_settings ${MODULE_USES} ${MODULE_LIBRARIES})
+  target_link_options(${name} PRIVATE LINKER:--exclude-libs,ALL)
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CONCHOID_MODULE_FOLDER}
+                                           INSTALL_RPATH_USE_LINK_PATH ON)
+  add_dependencies(conchoid_modules ${name})
+  install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/conchoid)
+endfunction()
+
 # conchoid_test(NAME USES rooms... LIBRARIES external targets): tests/NAME/*.cpp become the program test_NAME.
 function(conchoid_test name)
   cmake_parse_arguments(TEST "" "" "USES;LIBRARIES" ${ARGN})
@@ -104,5 +129,6 @@ function(conchoid_test name)
     CONCHOID_SHARED_MODELS="${PROJECT_SOURCE_DIR}/../shared/models")
   conchoid_optimization(test_${name} -O1)
   conchoid_use_precompiled(test_${name} conchoid_test_headers)
+  add_dependencies(test_${name} conchoid_modules)
   gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 1200)
 endfunction()

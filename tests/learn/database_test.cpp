@@ -5,7 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
 #include <fstream>
+#include <random>
 #include <thread>
 
 #include "conchoid/core/bytes.hpp"
@@ -142,7 +145,10 @@ TEST(Database, CanBeStoppedFinishedAndTakenUpAgain) {
 TEST(Database, SurvivesBeingKilledAtAnyMoment) {
   const TemporaryFolder folder;
   const DatabaseHeader h = header(60);
+  const auto start = std::chrono::steady_clock::now();
   generate(folder / "whole.h5", h, false);
+  const auto whole =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - start);
   std::mt19937_64 random(3);
   int kills = 0, kept_by_killed = 0;
   for (int round = 0; round < 3; ++round) {
@@ -157,7 +163,7 @@ TEST(Database, SurvivesBeingKilledAtAnyMoment) {
         }
         ::_exit(0);
       }
-      ::usleep(static_cast<useconds_t>(random() % 40000));
+      ::usleep(static_cast<useconds_t>(random() % static_cast<std::uint64_t>(1 + whole.count() / 2)));
       ::kill(child, SIGKILL);
       int status = 0;
       ::waitpid(child, &status, 0);

@@ -29,6 +29,11 @@ endfunction()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
 file(RENAME ${work}/installed ${work}/moved)
 run(${work}/moved/bin/conchoid --version)
+# Modules are found where they went: by the program, and by those that are linked with the library.
+if(EXISTS ${BUILD}/modules/conchoid_level_sets.so)
+  set(level_sets LEVEL_SETS)
+  run(${work}/moved/bin/conchoid run ${ROOT}/examples/cube.toml --frames 1 --format vdb --out ${work}/level-sets)
+endif()
 
 file(GLOB_RECURSE exported ${work}/moved/*.cmake)
 if(NOT exported)
@@ -59,5 +64,5 @@ file(WRITE ${work}/consumer/readme.cpp "${code}")
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${ROOT}/tests/structure/consumer -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/moved
     -DCMAKE_BUILD_TYPE=Release -DREADME_SOURCE=${work}/consumer/readme.cpp)
 run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer)
+run(${work}/build/consumer ${level_sets})
 run(${work}/build/readme)

@@ -4,6 +4,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/union_find.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 namespace {
@@ -21,9 +22,10 @@ std::vector<Half> sorted_halves(const std::vector<Corners>& pieces) {
       const NodeId a = pieces[p][k], b = pieces[p][(k + 1) % 3];
       halves.push_back({Edge(a, b), a < b, p});
     }
-  std::sort(halves.begin(), halves.end(), [](const Half& x, const Half& y) {
-    return x.edge != y.edge ? x.edge < y.edge : x.piece < y.piece;
-  });
+  std::size_t nodes = 0;
+  for (const Half& h : halves)
+    nodes = std::max(nodes, h.edge.b.index() + 1);
+  sort_by_edge(halves, nodes, [](const Half& h) { return h.edge; });  // then by piece
   return halves;
 }
 

@@ -86,9 +86,18 @@ bool coplanar_segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const V
          (a_side == 0 && between(a, c, d, pr)) || (b_side == 0 && between(b, c, d, pr));
 }
 
-/// Closed segment against closed triangle.
-bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Triangle& t) {
-  const int p_side = side_of_plane(t[0], t[1], t[2], p), q_side = side_of_plane(t[0], t[1], t[2], q);
+/// On which sides of t's plane the points lie.
+std::array<int, 3> sides_of_plane(const Triangle& t, const Triangle& points) {
+  return {side_of_plane(t[0], t[1], t[2], points[0]), side_of_plane(t[0], t[1], t[2], points[1]),
+          side_of_plane(t[0], t[1], t[2], points[2])};
+}
+
+bool all_on_one_side(const std::array<int, 3>& side) {
+  return side[0] != 0 && side[0] == side[1] && side[1] == side[2];
+}
+
+/// Closed segment against closed triangle, the sides of whose plane its ends lie on being known.
+bool segment_meets_triangle(const Vec3& p, const Vec3& q, int p_side, int q_side, const Triangle& t) {
   if (p_side * q_side > 0) return false;
   if (p_side == 0 && q_side == 0) {
     const Projection pr = projection_of(t);
@@ -110,12 +119,55 @@ bool apart(const Triangle& a, const Triangle& b) {
   return false;
 }
 
+/// Whether an edge of a has all of a on one side and all of b strictly on the other. `orientation` of a is not 0.
+bool an_edge_parts(const Triangle& a, const Triangle& b, int orientation, Projection pr) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &from = a[k], &to = a[(k + 1) % 3];
+    if (turn(from, to, b[0], pr) == -orientation && turn(from, to, b[1], pr) == -orientation &&
+        turn(from, to, b[2], pr) == -orientation)
+      return true;
+  }
+  return false;
+}
+
+/// Triangles in one plane are apart if and only if an edge of one of them parts them.
+bool parted_in_plane(const Triangle& a, const Triangle& b) {
+  const Projection pr = projection_of(a);
+  const int of_a = turn(a[0], a[1], a[2], pr), of_b = turn(b[0], b[1], b[2], pr);
+  return of_a != 0 && of_b != 0 && (an_edge_parts(a, b, of_a, pr) || an_edge_parts(b, a, of_b, pr));
+}
+
+/// Whether b lies beyond an edge of a, seen along a's normal, by more than round-off: no exact test is needed then,
+/// which is slow where all lies almost in one plane.
+bool clearly_beyond_an_edge(const Triangle& a, const Triangle& b) {
+  const Vec3 normal = area_vector2(a[0], a[1], a[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 edge = a[(k + 1) % 3] - a[k], out = cross(edge, normal);
+    const Vec3 u = b[0] - a[k], v = b[1] - a[k], w = b[2] - a[k], own = a[(k + 2) % 3] - a[k];
+    const double reach = u.cwiseAbs().maxCoeff() + v.cwiseAbs().maxCoeff() + w.cwiseAbs().maxCoeff() +
+                         own.cwiseAbs().maxCoeff() + edge.cwiseAbs().maxCoeff();
+    const double within = std::max({0.0, out.dot(own), out.dot(edge)});
+    constexpr double clear = 1e-12;  // round-off stays below 1e-14
+    if (std::min({out.dot(u), out.dot(v), out.dot(w)}) - within > clear * reach * out.cwiseAbs().sum())
+      return true;
+  }
+  return false;
+}
+
 /// Triangles with no common node.
 bool separate_triangles_meet(const Triangle& a, const Triangle& b) {
-  if (apart(a, b)) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (segment_meets_triangle(a[k], a[(k + 1) % 3], b) || segment_meets_triangle(b[k], b[(k + 1) % 3], a))
+  if (apart(a, b) || clearly_beyond_an_edge(a, b) || clearly_beyond_an_edge(b, a)) return false;
+  const std::array<int, 3> a_side = sides_of_plane(b, a);
+  if (all_on_one_side(a_side)) return false;
+  const std::array<int, 3> b_side = sides_of_plane(a, b);
+  if (all_on_one_side(b_side)) return false;
+  if (a_side == std::array{0, 0, 0} && b_side == std::array{0, 0, 0} && parted_in_plane(a, b)) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3;
+    if (segment_meets_triangle(a[k], a[l], a_side[k], a_side[l], b) ||
+        segment_meets_triangle(b[k], b[l], b_side[k], b_side[l], a))
       return true;
+  }
   return false;
 }
 
@@ -129,7 +181,12 @@ bool triangles_at_node_meet(const Vec3& v, const Vec3& p, const Vec3& q, const V
   constexpr double clear = 1e-9;
   if (std::min(across.dot(vp), across.dot(vq)) > clear && std::max(across.dot(vb), across.dot(vc)) < -clear)
     return false;
-  return segment_meets_triangle(p, q, {v, b, c}) || segment_meets_triangle(b, c, {v, p, q});
+  const int p_side = side_of_plane(v, b, c, p), q_side = side_of_plane(v, b, c, q);
+  if (p_side * q_side > 0) return false;
+  const int b_side = side_of_plane(v, p, q, b), c_side = side_of_plane(v, p, q, c);
+  if (b_side * c_side > 0) return false;
+  return segment_meets_triangle(p, q, p_side, q_side, {v, b, c}) ||
+         segment_meets_triangle(b, c, b_side, c_side, {v, p, q});
 }
 
 /// Triangles a b c and b a d with the common edge ab meet elsewhere only if they are folded flat onto each

@@ -1,11 +1,11 @@
 #include "conchoid/intersect/unfold.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "conchoid/intersect/manifold_part.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 namespace {
@@ -16,14 +16,10 @@ struct Stars {
   IdVector<NodeId, std::vector<NodeId>> neighbours;
 
   explicit Stars(const TriMesh& sheet) : triangles(sheet.node_count()), neighbours(sheet.node_count()) {
-    std::map<Edge, int> uses;
-    for (std::size_t t = 0; t < sheet.triangle_count(); ++t) {
-      const auto& c = sheet.corners[TriId(t)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        triangles[c[k]].push_back(TriId(t));
-        ++uses[Edge(c[k], c[(k + 1) % 3])];
-      }
-    }
+    for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
+      for (const NodeId n : sheet.corners[TriId(t)])
+        triangles[n].push_back(TriId(t));
+    const std::vector<EdgeUse> uses = edge_uses(sheet.corners, sheet.node_count());
     IdVector<NodeId, char> on_boundary(sheet.node_count(), 0);
     for (const auto& [e, count] : uses)
       if (count == 1) on_boundary[e.a] = on_boundary[e.b] = 1;

@@ -4,250 +4,26 @@
 //   attributes of /: format, version, material, resolution, seed, planned_runs, shard, shards, complete;
 //   /models, /spec: text /runs/<column>: one entry per run;  /samples/run, frame, node, <field>: one entry
 //   per sample, with its unit as attribute
-#include <H5Cpp.h>
-
 #include <algorithm>
 #include <mutex>
 
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/database.hpp"
+#include "conchoid/learn/hdf5_module.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr std::string_view magic = "CNCHDATA";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = kDatabaseVersion;
 constexpr std::size_t block_size = 512;
-constexpr std::size_t chunk = 16384;
 constexpr const char* remedy = "copy it again or generate it again with `conchoid database generate`";
 
 std::mutex hdf5_mutex;  // the library is not safe for several threads at a time
 
-template <class T>
-const H5::PredType& type_of() {
-  if constexpr (std::is_same_v<T, double>) return H5::PredType::IEEE_F64LE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5::PredType::STD_I32LE;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return H5::PredType::STD_U64LE;
-}
-
-template <class T>
-const H5::PredType& memory_type() {
-  if constexpr (std::is_same_v<T, double>) return H5::PredType::NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5::PredType::NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return H5::PredType::NATIVE_UINT64;
-}
-
-H5::DSetCreatPropList storage(std::size_t n) {
-  H5::DSetCreatPropList list;
-  H5Pset_obj_track_times(list.getId(), false);  // the same content gives the same bytes
-  if (n > 0) {
-    const hsize_t size = std::min(n, chunk);
-    list.setChunk(1, &size);
-    list.setShuffle();
-    list.setDeflate(4);
-  }
-  return list;
-}
-
-template <class T>
-H5::DataSet write_column(const H5::Group& group, const std::string& name, const std::vector<T>& values) {
-  const hsize_t n = values.size();
-  const H5::DataSet set =
-      group.createDataSet(name, type_of<T>(), H5::DataSpace(1, &n), storage(values.size()));
-  if (n > 0) set.write(values.data(), memory_type<T>());
-  return set;
-}
-
-/// Texts of equal length, filled up with zeros.
-void write_texts(const H5::Group& group, const std::string& name, const std::vector<std::string>& texts) {
-  std::size_t length = 1;
-  for (const std::string& t : texts)
-    length = std::max(length, t.size());
-  std::string block(length * texts.size(), '\0');
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    texts[i].copy(block.data() + i * length, length);
-  const hsize_t n = texts.size();
-  H5::StrType type(H5::PredType::C_S1, length);
-  type.setStrpad(H5T_STR_NULLPAD);
-  const H5::DataSet set = group.createDataSet(name, type, H5::DataSpace(1, &n), storage(texts.size()));
-  if (n > 0) set.write(block.data(), type);
-}
-
-template <class T>
-void write_attribute(const H5::H5Object& object, const std::string& name, T value) {
-  object.createAttribute(name, type_of<T>(), H5::DataSpace()).write(memory_type<T>(), &value);
-}
-
-void write_attribute(const H5::H5Object& object, const std::string& name, const std::string& text) {
-  const H5::StrType type(H5::PredType::C_S1, std::max<std::size_t>(1, text.size()));
-  object.createAttribute(name, type, H5::DataSpace()).write(type, text);
-}
-
-template <class T>
-std::vector<T> read_column(const H5::Group& group, const std::string& name) {
-  const H5::DataSet set = group.openDataSet(name);
-  const H5::DataSpace space = set.getSpace();
-  if (space.getSimpleExtentNdims() != 1) throw InputError("column " + name + " has the wrong shape");
-  hsize_t n = 0;
-  space.getSimpleExtentDims(&n);
-  std::vector<T> values(n);
-  if (n > 0) set.read(values.data(), memory_type<T>());
-  return values;
-}
-
-std::vector<std::string> read_texts(const H5::Group& group, const std::string& name) {
-  const H5::DataSet set = group.openDataSet(name);
-  const H5::StrType type = set.getStrType();
-  hsize_t n = 0;
-  set.getSpace().getSimpleExtentDims(&n);
-  const std::size_t length = type.getSize();
-  std::string block(length * n, '\0');
-  if (n > 0) set.read(block.data(), type);
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < n; ++i) {
-    texts.push_back(block.substr(i * length, length));
-    texts.back().erase(texts.back().find_last_not_of('\0') + 1);
-  }
-  return texts;
-}
-
-template <class T>
-T read_attribute(const H5::H5Object& object, const std::string& name) {
-  T value{};
-  object.openAttribute(name).read(memory_type<T>(), &value);
-  return value;
-}
-
-/// Material constants and their names in the file.
-template <class Material>
-auto material_fields(Material& m) {
-  return std::array<std::pair<const char*, decltype(&m.density)>, 6>{
-      {{"youngs_modulus", &m.youngs_modulus},
-       {"poisson_ratio", &m.poisson_ratio},
-       {"density", &m.density},
-       {"strength", &m.strength},
-       {"toughness", &m.toughness},
-       {"compressive_factor", &m.compressive_factor}}};
-}
-
-void write_header(const H5::Group& root, const Database& database) {
-  const DatabaseHeader& h = database.header;
-  write_attribute(root, "format", std::string("conchoid database"));
-  write_attribute(root, "version", static_cast<std::int32_t>(version));
-  for (const auto& [name, value] : material_fields(h.material))
-    write_attribute(root, name, *value);
-  write_attribute(root, "resolution", h.resolution);
-  write_attribute(root, "seed", h.seed);
-  write_attribute(root, "planned_runs", h.planned_runs);
-  write_attribute(root, "shard", h.shard);
-  write_attribute(root, "shards", h.shards);
-  write_attribute(root, "complete", static_cast<std::int32_t>(database.complete()));
-  write_texts(root, "models", h.models);
-  write_texts(root, "spec", {h.spec});
-}
-
-DatabaseHeader read_header(const H5::Group& root) {
-  DatabaseHeader h;
-  for (const auto& [name, value] : material_fields(h.material))
-    *value = read_attribute<double>(root, name);
-  h.resolution = read_attribute<double>(root, "resolution");
-  h.seed = read_attribute<std::uint64_t>(root, "seed");
-  h.planned_runs = read_attribute<std::int32_t>(root, "planned_runs");
-  h.shard = read_attribute<std::int32_t>(root, "shard");
-  h.shards = read_attribute<std::int32_t>(root, "shards");
-  if (h.planned_runs < 1 || h.shards < 1 || h.shard < 1 || h.shard > h.shards)
-    throw InputError("its plan is not valid");
-  h.models = read_texts(root, "models");
-  const auto spec = read_texts(root, "spec");
-  if (spec.size() != 1) throw InputError("its specification is missing");
-  h.spec = spec[0];
-  return h;
-}
-
-template <class T, class Get>
-std::vector<T> column_of(const std::vector<RunRecord>& runs, Get get) {
-  std::vector<T> values;
-  values.reserve(runs.size());
-  for (const RunRecord& r : runs)
-    values.push_back(static_cast<T>(get(r)));
-  return values;
-}
-
-/// Calls visit(name, member of RunRecord) for every column with one number per run.
-template <class Visit>
-void visit_run_columns(Visit visit) {
-  visit("id", &RunRecord::id);
-  visit("seed", &RunRecord::seed);
-  visit("magnitude", &RunRecord::magnitude);
-  visit("alpha", &RunRecord::alpha);
-  visit("beta", &RunRecord::beta);
-  visit("frames", &RunRecord::frames);
-  visit("samples", &RunRecord::samples);
-  visit("wall_seconds", &RunRecord::wall_seconds);
-  visit("hash", &RunRecord::hash);
-}
-
-constexpr std::array<const char*, 3> direction_names = {"direction_x", "direction_y", "direction_z"};
-
-void write_runs(const H5::Group& group, const std::vector<RunRecord>& runs) {
-  visit_run_columns([&](const char* name, auto member) {
-    using T = std::decay_t<decltype(std::declval<RunRecord>().*member)>;
-    write_column(group, name, column_of<T>(runs, [&](const RunRecord& r) { return r.*member; }));
-  });
-  for (int i = 0; i < 3; ++i)
-    write_column(group, direction_names[static_cast<std::size_t>(i)],
-                 column_of<double>(runs, [&](const RunRecord& r) { return r.direction[i]; }));
-  write_column(group, "excluded",
-               column_of<std::int32_t>(runs, [](const RunRecord& r) { return r.excluded; }));
-  write_texts(group, "stop", column_of<std::string>(runs, [](const RunRecord& r) { return r.stop; }));
-  write_texts(group, "reason", column_of<std::string>(runs, [](const RunRecord& r) { return r.reason; }));
-}
-
-std::vector<RunRecord> read_runs(const H5::Group& group) {
-  std::vector<RunRecord> runs(read_column<std::int32_t>(group, "id").size());
-  const auto fill = [&](const auto& values, auto set) {
-    if (values.size() != runs.size()) throw InputError("the columns of its runs differ in length");
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      set(runs[i], values[i]);
-  };
-  visit_run_columns([&](const char* name, auto member) {
-    using T = std::decay_t<decltype(std::declval<RunRecord>().*member)>;
-    fill(read_column<T>(group, name), [&](RunRecord& r, const T& value) { r.*member = value; });
-  });
-  for (int i = 0; i < 3; ++i)
-    fill(read_column<double>(group, direction_names[static_cast<std::size_t>(i)]),
-         [&](RunRecord& r, double value) { r.direction[i] = value; });
-  fill(read_column<std::int32_t>(group, "excluded"),
-       [](RunRecord& r, std::int32_t value) { r.excluded = value != 0; });
-  fill(read_texts(group, "stop"), [](RunRecord& r, const std::string& value) { r.stop = value; });
-  fill(read_texts(group, "reason"), [](RunRecord& r, const std::string& value) { r.reason = value; });
-  return runs;
-}
-
-void write_samples(const H5::Group& group, const SampleSet& samples) {
-  write_column(group, "run", samples.run());
-  write_column(group, "frame", samples.frame());
-  write_column(group, "node", samples.node());
-  for (std::size_t f = 0; f < SampleSet::field_count; ++f) {
-    const SampleField& field = SampleSet::fields()[f];
-    write_attribute(write_column(group, std::string(field.name), samples.field(f)), "unit",
-                    std::string(field.unit));
-  }
-}
-
-SampleSet read_samples(const H5::Group& group) {
-  SampleSet samples;
-  samples.run() = read_column<std::int32_t>(group, "run");
-  samples.frame() = read_column<std::int32_t>(group, "frame");
-  samples.node() = read_column<std::int32_t>(group, "node");
-  bool even = samples.frame().size() == samples.size() && samples.node().size() == samples.size();
-  for (std::size_t f = 0; f < SampleSet::field_count; ++f) {
-    samples.field(f) = read_column<double>(group, std::string(SampleSet::fields()[f].name));
-    even = even && samples.field(f).size() == samples.size();
-  }
-  if (!even) throw InputError("the columns of its samples differ in length");
-  return samples;
+template <class Function>
+Function* hdf5_function(const char* symbol, const std::filesystem::path& file) {
+  return module_function<Function>(kHdf5Module, symbol, file.string() + ": databases");
 }
 
 /// Runs ordered by id, planned, and owning exactly the samples that follow in their order.
@@ -263,37 +39,6 @@ void check_order(const Database& database) {
       if (database.samples.run()[at] != run.id) throw InputError("its samples are out of order");
   }
   if (at != database.samples.size()) throw InputError("some samples belong to no run");
-}
-
-std::string to_hdf5(const Database& database) {
-  H5::FileAccPropList access;
-  access.setCore(1 << 20, false);  // in memory only
-  const H5::H5File file("conchoid-database", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access);
-  const H5::Group root = file.openGroup("/");
-  write_header(root, database);
-  write_runs(root.createGroup("runs"), database.runs);
-  write_samples(root.createGroup("samples"), database.samples);
-  file.flush(H5F_SCOPE_GLOBAL);
-  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
-  if (size < 0) throw ComputationError("writing a database failed: no HDF5 image; report this as a bug");
-  std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file.getId(), image.data(), image.size()) < 0)
-    throw ComputationError("writing a database failed: no HDF5 image; report this as a bug");
-  return image;
-}
-
-Database from_hdf5(std::string& image) {
-  H5::FileAccPropList access;
-  access.setCore(1 << 20, false);
-  H5Pset_file_image(access.getId(), image.data(), image.size());
-  const H5::H5File file("conchoid-database", H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
-  const H5::Group root = file.openGroup("/");
-  Database database;
-  database.header = read_header(root);
-  database.runs = read_runs(root.openGroup("runs"));
-  database.samples = read_samples(root.openGroup("samples"));
-  check_order(database);
-  return database;
 }
 
 /// Checks the block in front; returns the HDF5 part.
@@ -321,50 +66,34 @@ std::string open_envelope(const std::string& bytes, const std::string& file) {
   return bytes.substr(block_size);
 }
 
-/// The library by itself prints its errors to stderr: not while this object exists, and again as before after.
-class SilentHdf5 {
- public:
-  SilentHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~SilentHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-  SilentHdf5(const SilentHdf5&) = delete;
-  SilentHdf5& operator=(const SilentHdf5&) = delete;
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
 }  // namespace
 
-void require_databases(const std::filesystem::path&) {}
+void require_databases(const std::filesystem::path& file) {
+  hdf5_function<DatabaseToHdf5>("conchoid_database_to_hdf5", file);
+}
 
 Database read_database(const std::filesystem::path& file) {
+  const auto from_hdf5 = hdf5_function<DatabaseFromHdf5>("conchoid_database_from_hdf5", file);
   std::string image = open_envelope(read_bytes(file), file.string());
   const std::lock_guard lock(hdf5_mutex);
-  const SilentHdf5 silent;
   try {
-    return from_hdf5(image);
-  } catch (const H5::Exception& e) {
-    throw InputError(file.string() + ": is not a valid database (" + e.getDetailMsg() + "); " + remedy);
+    Database database;
+    from_hdf5(image, database);
+    check_order(database);
+    return database;
   } catch (const InputError& e) {
     throw InputError(file.string() + ": " + e.what() + "; " + remedy);
   }
 }
 
 void write_database(const std::filesystem::path& file, const Database& database) {
+  const auto to_hdf5 = hdf5_function<DatabaseToHdf5>("conchoid_database_to_hdf5", file);
   std::string image;
-  {
+  try {
     const std::lock_guard lock(hdf5_mutex);
-    const SilentHdf5 silent;
-    try {
-      image = to_hdf5(database);
-    } catch (const H5::Exception& e) {
-      throw ComputationError(file.string() + ": writing failed (" + e.getDetailMsg() +
-                             "); is there enough memory?");
-    }
+    to_hdf5(database, image);
+  } catch (const ComputationError& e) {
+    throw ComputationError(file.string() + ": writing failed (" + e.what() + "); is there enough memory?");
   }
   ByteWriter block;
   block.put_raw(magic);

@@ -6,6 +6,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/circle_points.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 namespace {
@@ -279,19 +280,9 @@ TriMesh rectangle_crack(const Vec3& center, const Vec3& edge1, const Vec3& edge2
 }
 
 std::vector<Edge> boundary_edges(const TriMesh& mesh) {
-  std::vector<Edge> edges;
-  for (const auto& c : mesh.corners)
-    for (int k = 0; k < 3; ++k)
-      edges.emplace_back(c[k], c[(k + 1) % 3]);
-  std::sort(edges.begin(), edges.end());
   std::vector<Edge> boundary;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && edges[end] == edges[i])
-      ++end;
-    if (end == i + 1) boundary.push_back(edges[i]);
-    i = end;
-  }
+  for (const auto& [edge, count] : edge_uses(mesh.corners, mesh.node_count()))
+    if (count == 1) boundary.push_back(edge);
   return boundary;
 }
 

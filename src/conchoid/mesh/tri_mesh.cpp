@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "conchoid/core/union_find.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 
@@ -62,7 +63,7 @@ IdVector<TriId, std::array<TriId, 3>> triangle_neighbours(const TriMesh& mesh) {
       const auto& c = mesh.corners[TriId(t)];
       sides.push_back({Edge(c[k], c[(k + 1) % 3]), TriId(t), k});
     }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) { return x.edge < y.edge; });
+  sort_by_edge(sides, mesh.node_count(), [](const Side& s) { return s.edge; });
   IdVector<TriId, std::array<TriId, 3>> neighbours(mesh.triangle_count());
   for (std::size_t i = 0; i + 1 < sides.size(); ++i)
     if (sides[i].edge == sides[i + 1].edge) {

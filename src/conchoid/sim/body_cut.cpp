@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/surface/open_slits.hpp"
@@ -50,8 +51,25 @@ std::vector<Fragment> parted_by(const std::vector<Fragment>& fragments, const Tr
   }
 }
 
-bool open_cleanly(const std::vector<Fragment>& fragments, double width) {
-  return std::all_of(fragments.begin(), fragments.end(), [&](Fragment f) { return open_slits(f, width); });
+// The fragments' nodes with their slits open, and whether none crosses itself then.
+struct OpenFragments {
+  std::vector<IdVector<NodeId, Vec3>> positions;
+  bool clean = true;
+};
+
+OpenFragments open_all(const std::vector<Fragment>& fragments, double width) {
+  OpenFragments open;
+  open.positions.resize(fragments.size());
+  std::vector<char> clean(fragments.size());
+  parallel_for(fragments.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Fragment f = fragments[i];
+      clean[i] = open_slits(f, width);
+      open.positions[i] = std::move(f.mesh.positions);
+    }
+  });
+  open.clean = std::all_of(clean.begin(), clean.end(), [](char c) { return c != 0; });
+  return open;
 }
 
 }  // namespace
@@ -70,13 +88,15 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
                     error.what()));
     cut.fragments = cut_into_fragments(body.detailed, {}, fragment_settings(body, run));
   };
+  CutFindings findings;
   try {
-    cut.fragments = cut_into_fragments(body.detailed, cut.sheets, fragment_settings(body, run));
+    cut.fragments = cut_into_fragments(body.detailed, cut.sheets, fragment_settings(body, run), &findings);
   } catch (const ComputationError& error) {  // folded over itself
     left_whole(error);
   } catch (const InputError& error) {  // passes through itself
     left_whole(error);
   }
+  cut.inside = std::move(findings.inside);
   return cut;
 }
 
@@ -92,12 +112,13 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
       std::vector<Fragment> parts =
           parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
       if (parts.size() < 2) continue;
-      const bool clean = open_cleanly(parts, slit_width(body));
-      if (clean || best.empty()) {
+      OpenFragments open = open_all(parts, slit_width(body));
+      if (open.clean || best.empty()) {
         best = std::move(parts);
         best_surface = std::move(surface);
+        cut.opened = std::move(open.positions);
       }
-      if (clean) break;
+      if (open.clean) break;
     }
     if (best.empty()) continue;
     cut.ligament = parting_faces(best, best_surface, all.triangle_count());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct BodyCut {
   std::vector<TriMesh> sheets;      ///< that cut it
   TriMesh ligament;                 ///< the surface along which the last ligament broke; mostly empty
   std::vector<Fragment> fragments;  ///< largest first, in the prepared body's coordinates
+  std::optional<TriMesh>
+      inside;  ///< of the sheets: their part inside of the body; none where it was not found
+  std::vector<IdVector<NodeId, Vec3>>
+      opened;  ///< the fragments' nodes with slits open; empty where that was not tried
   std::vector<std::string> warnings;
   bool parted() const { return fragments.size() > 1; }
 };

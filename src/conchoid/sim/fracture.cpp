@@ -8,6 +8,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/law/criterion.hpp"
@@ -108,12 +109,14 @@ struct Fracture::State {
                       FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
 
-  int unresolved_frames = 0;      // in a row
-  std::optional<BodyCut> parted;  // when it separated
+  int unresolved_frames = 0;                           // in a row
+  std::optional<BodyCut> parted;                       // when it separated
+  mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
   bool solved() const { return !predictor && carried == 0; }
   TriMesh swept_surface() const;
-  std::vector<TriMesh> visible_sheets() const;
+  const std::vector<TriMesh>& visible_sheets() const;
+  std::vector<TriMesh> unfold_visible_sheets() const;
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
   bool barred() const;
@@ -202,6 +205,7 @@ bool Fracture::State::start_crack(StepReport& report) {
   ++new_cracks;
   if (const auto said = clamp_warning(*body, sites[0].center)) report.warnings.push_back(*said);
   if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
+  sheets.reset();
   fine.append_parts(crack.sheet);
   if (visible) visible->append_parts(crack.sheet);
   return true;
@@ -317,9 +321,11 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   if (solved()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
-  if (!steps.empty())
+  if (!steps.empty()) {
+    sheets.reset();
     advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,
                    visible ? &*visible : nullptr);
+  }
   if (!steps.empty() || new_crack) update_crack(crack, body->surface, body->crack_edge);
   report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
@@ -432,7 +438,7 @@ std::size_t Fracture::cracks() const {
   return state_->body->cracks.size() + new_cracks();
 }
 
-std::vector<TriMesh> Fracture::visible_sheets() const {
+const std::vector<TriMesh>& Fracture::visible_sheets() const {
   return state_->visible_sheets();
 }
 TriMesh Fracture::swept_surface() const {
@@ -448,20 +454,27 @@ TriMesh Fracture::State::swept_surface() const {
   return finished.surface();
 }
 
-std::vector<TriMesh> Fracture::State::visible_sheets() const {
+const std::vector<TriMesh>& Fracture::State::visible_sheets() const {
+  if (!sheets) sheets = unfold_visible_sheets();
+  return *sheets;
+}
+
+std::vector<TriMesh> Fracture::State::unfold_visible_sheets() const {
   const TriMesh all = swept_surface();
   const std::vector<int> part = connected_parts(all);
-  std::vector<TriMesh> sheets(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+  std::vector<TriMesh> apart(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
   std::vector<NodeId> moved(all.node_count());
   for (std::size_t i = 0; i < all.node_count(); ++i)
-    moved[i] = sheets[part[i]].positions.add(all.positions[NodeId(i)]);
+    moved[i] = apart[part[i]].positions.add(all.positions[NodeId(i)]);
   for (const auto& c : all.corners)
-    sheets[part[c[0].index()]].corners.push_back(
+    apart[part[c[0].index()]].corners.push_back(
         {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
-  for (TriMesh& sheet : sheets)
-    sheet = unfolded_part(sheet);
-  std::erase_if(sheets, [](const TriMesh& sheet) { return sheet.corners.empty(); });
-  return sheets;
+  parallel_for(apart.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      apart[i] = unfolded_part(apart[i]);
+  });
+  std::erase_if(apart, [](const TriMesh& sheet) { return sheet.corners.empty(); });
+  return apart;
 }
 
 StopReason run_frames(Fracture& fracture, int limit, const std::function<void()>& progress) {

@@ -123,7 +123,7 @@ class Fracture {
 
   /// The visible crack surfaces as swept (they may stick out), one sheet per crack, with the last row of the
   /// markers that are ahead of it.
-  std::vector<TriMesh> visible_sheets() const;
+  const std::vector<TriMesh>& visible_sheets() const;
   /// The same in one, as the markers have swept it: it may be folded or pass through itself.
   TriMesh swept_surface() const;
   /// The detailed body as it was cut when it separated; null before, and where the settings do not ask for it.

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/intersect/sheet_inside.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/body_cut.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
@@ -17,14 +19,6 @@
 
 namespace conchoid {
 namespace {
-
-// Of the sheet; nodes that no triangle uses are dropped.
-TriMesh part_inside(const CutComplex& cut) {
-  std::vector<TriId> all;
-  for (std::size_t t = 0; t < cut.sheet.size(); ++t)
-    all.emplace_back(t);
-  return submesh({cut.positions, cut.sheet}, all);
-}
 
 AttributeSettings attribute_settings(const OutputSpec& output, const PreparedBody& body) {
   AttributeSettings settings;
@@ -37,7 +31,7 @@ AttributeSettings attribute_settings(const OutputSpec& output, const PreparedBod
 // The crack inside the body; as it was swept where it is folded over itself.
 TriMesh trimmed_crack(const PreparedBody& body, const std::vector<TriMesh>& sheets) {
   try {
-    return part_inside(corefine(body.detailed, join(sheets)));
+    return sheet_inside(corefine(body.detailed, join(sheets)));
   } catch (const ComputationError&) {
     return join(sheets);
   } catch (const InputError&) {
@@ -49,7 +43,7 @@ TriMesh trimmed_crack(const PreparedBody& body, const std::vector<TriMesh>& shee
 
 TriMesh crack_surface(const Fracture& fracture) {
   const PreparedBody& body = fracture.body();
-  const std::vector<TriMesh> sheets = fracture.visible_sheets();
+  const std::vector<TriMesh>& sheets = fracture.visible_sheets();
   TriMesh crack = body.infinite() ? join(sheets) : trimmed_crack(body, sheets);
   for (Vec3& x : crack.positions)
     x += body.origin;
@@ -92,13 +86,19 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
       fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
-  out.crack = join({trimmed_crack(body, cut.sheets), cut.ligament});
+  out.crack = join({cut.inside ? *cut.inside : trimmed_crack(body, cut.sheets), cut.ligament});
   out.contacts = fragment_contacts(out.fragments);
-  for (Fragment& f : out.fragments) {
-    keep_solid(f);
-    f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
-    open_slits(f, slit_width(body));
-  }
+  parallel_for(out.fragments.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Fragment& f = out.fragments[i];
+      keep_solid(f);
+      f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
+      if (cut.opened.empty())
+        open_slits(f, slit_width(body));
+      else
+        f.mesh.positions = std::move(cut.opened[i]);
+    }
+  });
   transfer_attributes(out.fragments, body.detailed, body.attributes, attribute_settings(output, body));
   for (Fragment& f : out.fragments)
     move_fragment(f, body.origin, body.detailed, body.scene_positions);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/front/front.hpp"
 #include "conchoid/intersect/corefine.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
@@ -42,11 +43,15 @@ class SheetInPiece {
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
       for (const NodeId n : mesh_.corners[TriId(t)])
         normals[n] += area_vector(mesh_, TriId(t));
-    for (std::size_t i = 0; i < mesh_.node_count(); ++i) {
-      const NodeId n(i);
-      along_.push_back(lies_along(mesh_.positions[n], normals[n]));
-      deep_.push_back(!along_[n] && winding_number(solid_, mesh_.positions[n]) > 0.5);
-    }
+    along_.assign(mesh_.node_count(), 0);
+    deep_.assign(mesh_.node_count(), 0);
+    parallel_for(mesh_.node_count(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const NodeId n(i);
+        along_[n] = lies_along(mesh_.positions[n], normals[n]);
+        deep_[n] = !along_[n] && winding_number(solid_, mesh_.positions[n]) > 0.5;
+      }
+    });
   }
 
   // Triangles that reach into the material, and those around them; where they would lie in a face along which the

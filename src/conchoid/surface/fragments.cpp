@@ -10,6 +10,7 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine.hpp"
+#include "conchoid/intersect/sheet_inside.hpp"
 #include "conchoid/surface/cut_slivers.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -150,13 +151,15 @@ struct CutPieces {
 
 /// How a sheet cuts.
 struct SheetCut {
-  std::size_t first_triangle = 0;  ///< number of its first triangle among those of all sheets
-  double minimum_volume = 0;       ///< of the pieces it parts [m³]
-  bool slits = true;               ///< it also cuts where it parts nothing
+  std::size_t first_triangle = 0;            ///< number of its first triangle among those of all sheets
+  double minimum_volume = 0;                 ///< of the pieces it parts [m³]
+  bool slits = true;                         ///< it also cuts where it parts nothing
+  std::optional<TriMesh>* inside = nullptr;  ///< where its part inside of the piece goes, as it lies
 };
 
 CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, const SheetCut& how) {
   CutComplex cut = corefine(piece.mesh, sheet);
+  if (how.inside && !how.inside->has_value()) *how.inside = sheet_inside(cut);
   if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
   remove_slivers(cut, piece.mesh, sheet, kSmallestHeight * mean_edge(sheet));
   split_edges_between_front_nodes(cut);
@@ -169,7 +172,7 @@ CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, const SheetCu
 
 /// Earlier cuts have left rounded nodes: where faces of theirs overlap by round-off, a sheet may not find a
 /// clean way through. Then it is moved by far less than any visible size.
-std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const SheetCut& how) {
+std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, SheetCut how) {
   constexpr std::array shares{0.0, 1e-10, -1e-10, 1e-9, -1e-9, 1e-8, -1e-8};
   std::vector<Piece> fallback;
   std::exception_ptr failure;
@@ -183,6 +186,7 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, const She
     } catch (const ComputationError&) {
       failure = std::current_exception();
     }
+    how.inside = nullptr;  // is of the sheet where it lies
   }
   if (fallback.empty()) std::rethrow_exception(failure);
   return fallback;
@@ -230,14 +234,15 @@ std::vector<Fragment> as_fragments(std::vector<Piece> pieces, const FragmentSett
 }  // namespace
 
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
-                                         const FragmentSettings& settings) {
+                                         const FragmentSettings& settings, CutFindings* findings) {
   const double body_volume = enclosed_volume(surface);
   std::vector<Piece> pieces(1);
   pieces[0].mesh = surface;
   pieces[0].kind.assign(surface.triangle_count(), FaceKind::original);
   for (std::size_t t = 0; t < surface.triangle_count(); ++t)
     pieces[0].source.emplace_back(t);
-  SheetCut how{0, settings.minimum_volume_fraction * body_volume, true};
+  SheetCut how{0, settings.minimum_volume_fraction * body_volume, true, nullptr};
+  if (findings && sheets.size() == 1) how.inside = &findings->inside;
   Progress progress("sheets cut", sheets.size());
   for (const TriMesh& sheet : sheets) {
     pieces = cut_pieces(pieces, sheet, how);
@@ -255,7 +260,7 @@ std::vector<Fragment> part_fragments(const std::vector<Fragment>& fragments, con
     pieces.push_back({f.mesh, f.face_kind, f.source});
     body_volume += f.volume;
   }
-  const SheetCut how{first_triangle, settings.minimum_volume_fraction * body_volume, false};
+  const SheetCut how{first_triangle, settings.minimum_volume_fraction * body_volume, false, nullptr};
   return as_fragments(cut_pieces(pieces, surface, how), settings, body_volume);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "conchoid/mesh/surface_attributes.hpp"
@@ -40,12 +41,17 @@ struct FragmentSettings {
       0;  ///< the smallest pieces are joined likewise until there are so few; 0: all stay
 };
 
+/// What a cut finds on its way.
+struct CutFindings {
+  std::optional<TriMesh> inside;  ///< of the sheet: its part inside of the body; none of several sheets
+};
+
 /// Cuts a closed surface by crack sheets (fine meshes; they may stick out of the body and stop at each other)
 /// into watertight pieces, largest first. A sheet, or a part of one, that does not separate leaves a slit: a
 /// pair of coincident fracture faces, tagged and visible (open_slits() draws them apart). Triangles lower
 /// than 3·10⁻⁴ of a sheet's mean edge are taken out of its cut where that can be (remove_slivers()).
 std::vector<Fragment> cut_into_fragments(const TriMesh& surface, const std::vector<TriMesh>& sheets,
-                                         const FragmentSettings& settings);
+                                         const FragmentSettings& settings, CutFindings* findings = nullptr);
 
 /// Cuts the pieces of a body once more, but only where the surface parts one of them: what of it would be a slit is
 /// left out.

@@ -1,6 +1,9 @@
 #include "conchoid/surface/mass_properties.hpp"
 
-#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 
@@ -32,15 +35,26 @@ MassProperties mass_properties(const TriMesh& closed, double density) {
 }
 
 bool is_watertight(const TriMesh& mesh) {
-  std::vector<std::pair<NodeId, NodeId>> forth, back;
+  struct Side {
+    Edge edge;
+    bool along;  // from edge.a to edge.b
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangle_count());
   for (const auto& c : mesh.corners)
-    for (int k = 0; k < 3; ++k) {
-      forth.emplace_back(c[k], c[(k + 1) % 3]);
-      back.emplace_back(c[(k + 1) % 3], c[k]);
-    }
-  std::sort(forth.begin(), forth.end());
-  std::sort(back.begin(), back.end());
-  return forth == back && std::adjacent_find(forth.begin(), forth.end()) == forth.end();
+    for (std::size_t k = 0; k < 3; ++k)
+      sides.push_back({Edge(c[k], c[(k + 1) % 3]), c[k] < c[(k + 1) % 3]});
+  sort_by_edge(sides, mesh.node_count(), [](const Side& s) { return s.edge; });
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].edge == sides[i].edge)
+      ++end;
+    const bool back_and_forth = end == i + 2 && sides[i].along != sides[i + 1].along;
+    const bool at_one_node = end == i + 1 && sides[i].edge.a == sides[i].edge.b;
+    if (!back_and_forth && !at_one_node) return false;
+    i = end;
+  }
+  return true;
 }
 
 }  // namespace conchoid

@@ -7,6 +7,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/union_find.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 namespace {
@@ -62,9 +63,7 @@ class Gluing {
       for (int k = 0; k < 3; ++k)
         halves.push_back({Edge(c[k], c[(k + 1) % 3]), f, k, c[k] < c[(k + 1) % 3]});
     }
-    std::sort(halves.begin(), halves.end(), [](const HalfEdge& x, const HalfEdge& y) {
-      return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
-    });
+    sort_by_edge(halves, cut_.positions.size(), [](const HalfEdge& h) { return h.edge; });  // then by face
     for (std::size_t begin = 0; begin < halves.size();) {
       std::size_t end = begin + 1;
       while (end < halves.size() && halves[end].edge == halves[begin].edge)

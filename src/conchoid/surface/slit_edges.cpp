@@ -4,16 +4,13 @@
 #include <map>
 
 #include "conchoid/mesh/corners.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
 namespace {
 
-std::map<Edge, int> sheet_edges(const CutComplex& cut) {
-  std::map<Edge, int> count;
-  for (const Corners& c : cut.sheet)
-    for (int k = 0; k < 3; ++k)
-      ++count[Edge(c[k], c[(k + 1) % 3])];
-  return count;
+std::vector<EdgeUse> sheet_edges(const CutComplex& cut) {
+  return edge_uses(cut.sheet, cut.positions.size());
 }
 
 bool on_mouth(const CutComplex& cut, const Edge& e) {
@@ -25,7 +22,9 @@ bool is_front(const CutComplex& cut, const Edge& e, int count) {
 }
 
 void leave_out_loose_pieces(CutComplex& cut) {
-  const std::map<Edge, int> count = sheet_edges(cut);
+  std::vector<Edge> front;
+  for (const auto& [e, n] : sheet_edges(cut))
+    if (is_front(cut, e, n)) front.push_back(e);
   IdVector<TriId, Corners> sheet;
   std::vector<TriId> parent;
   for (std::size_t t = 0; t < cut.sheet.size(); ++t) {
@@ -33,7 +32,7 @@ void leave_out_loose_pieces(CutComplex& cut) {
     int fronts = 0;
     for (int k = 0; k < 3; ++k) {
       const Edge e(c[k], c[(k + 1) % 3]);
-      fronts += is_front(cut, e, count.at(e)) ? 1 : 0;
+      fronts += std::binary_search(front.begin(), front.end(), e) ? 1 : 0;
     }
     if (fronts == 3) continue;
     sheet.push_back(c);
@@ -45,7 +44,7 @@ void leave_out_loose_pieces(CutComplex& cut) {
 
 // Edges to halve: in order, and only the first of each triangle.
 std::map<Edge, NodeId> edges_to_halve(const CutComplex& cut) {
-  const std::map<Edge, int> count = sheet_edges(cut);
+  const std::vector<EdgeUse> count = sheet_edges(cut);
   std::vector<char> front(cut.positions.size(), 0);
   for (const auto& [e, n] : count)
     if (is_front(cut, e, n)) front[e.a.index()] = front[e.b.index()] = 1;
@@ -53,6 +52,7 @@ std::map<Edge, NodeId> edges_to_halve(const CutComplex& cut) {
   for (const auto& [e, n] : count)
     if (!is_front(cut, e, n) && front[e.a.index()] && front[e.b.index()]) halve.emplace(e, NodeId());
   const auto one_each = [&](const IdVector<TriId, Corners>& triangles) {
+    if (halve.empty()) return;
     for (const Corners& c : triangles) {
       std::vector<Edge> found;
       for (int k = 0; k < 3; ++k)

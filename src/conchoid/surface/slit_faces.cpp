@@ -2,34 +2,36 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <map>
+#include <utility>
 
 #include "conchoid/mesh/place.hpp"
 
 namespace conchoid {
 
-SharedPlaces::SharedPlaces(const TriMesh& mesh)
-    : first(first_at_place(mesh)), shared(mesh.node_count(), 0) {
+SharedPlaces::SharedPlaces(const TriMesh& mesh) : first(first_at_place(mesh)), shared(mesh.node_count(), 0) {
   for (std::size_t n = 0; n < first.size(); ++n)
     if (first[NodeId(n)] != NodeId(n)) shared[NodeId(n)] = shared[first[NodeId(n)]] = 1;
 }
 
 std::vector<std::vector<std::size_t>> opposite_faces(const Fragment& f, const SharedPlaces& places) {
-  std::map<std::array<NodeId, 3>, std::vector<std::size_t>> at;
+  std::vector<std::pair<std::array<NodeId, 3>, std::size_t>> at;
   for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
     if (f.face_kind[t] != FaceKind::fracture) continue;
     std::array<NodeId, 3> key = f.mesh.corners[TriId(t)];
     for (NodeId& n : key)
       n = places.first[n];
     std::sort(key.begin(), key.end());
-    at[key].push_back(t);
+    at.emplace_back(key, t);
   }
+  std::sort(at.begin(), at.end());
   std::vector<std::vector<std::size_t>> opposite(f.mesh.triangle_count());
-  for (const auto& [key, faces] : at)
-    for (const std::size_t t : faces)
-      std::copy_if(faces.begin(), faces.end(), std::back_inserter(opposite[t]),
-                   [&](std::size_t other) { return other != t; });
+  for (std::size_t begin = 0, end = 0; begin < at.size(); begin = end) {
+    while (end < at.size() && at[end].first == at[begin].first)
+      ++end;
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = begin; k < end; ++k)
+        if (k != i) opposite[at[i].second].push_back(at[k].second);
+  }
   return opposite;
 }
 
