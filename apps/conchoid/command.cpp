@@ -27,6 +27,17 @@ void allow_one_command(CLI::App& parent) {
   parent.require_subcommand(0, 1);
 }
 
+void add_cache_option(CLI::App& command, std::string& folder) {
+  command.add_option(
+      "--cache", folder,
+      "folder for prepared bodies (remeshed surfaces, factored systems): a body that was there before, "
+      "under whatever load, is not prepared again; never changes a result");
+}
+
+std::shared_ptr<const ByteCache> open_cache(const std::string& folder) {
+  return folder.empty() ? nullptr : std::make_shared<const ByteCache>(folder);
+}
+
 void print(const std::string& text) {
   if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0)
     throw ComputationError("stdout: the result could not be written; is the disk full or the pipe closed?");

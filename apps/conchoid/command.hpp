@@ -1,7 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
+
+#include "conchoid/core/byte_cache.hpp"
 
 namespace CLI {
 class App;
@@ -28,6 +31,11 @@ CLI::App* add_command(CLI::App& parent, Invocation& invocation, const std::strin
 
 /// One command and no more: what follows it is never taken for another, be it a folder of that name.
 void allow_one_command(CLI::App& parent);
+
+/// --cache DIR of what prepares bodies; `folder` stays empty without it.
+void add_cache_option(CLI::App& command, std::string& folder);
+/// The folder's cache, or null for an empty name. Throws InputError where it cannot be made.
+std::shared_ptr<const ByteCache> open_cache(const std::string& folder);
 
 /// Writes text and a line end to stdout. Throws ComputationError when that fails (closed pipe, full disk).
 void print(const std::string& text);

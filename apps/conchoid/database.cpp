@@ -15,7 +15,7 @@ namespace {
 
 struct DatabaseOptions {
   std::vector<std::string> files;
-  std::string out, spec, shard = "1/1";
+  std::string out, spec, cache, shard = "1/1";
   int runs = 0;  ///< 0: the specification's
   bool resume = false;
 };
@@ -75,6 +75,7 @@ void generate_and_print(const DatabaseOptions& options, const CommonOptions& com
   const auto [shard, shards] = parse_shard(options.shard);
   DatabaseSpec spec = read_database_spec(options.spec);
   if (options.runs > 0) spec.runs = options.runs;
+  spec.scene.run.cache = open_cache(options.cache);
   generate_database(spec, {.out = options.out, .shard = shard, .shards = shards, .resume = options.resume});
   const DatabaseInfo info = database_info(read_database(options.out));
   print(common.json ? json_text(info) : info_text(info));
@@ -95,6 +96,7 @@ void add_generate(CLI::App& group, Invocation& invocation, const std::shared_ptr
       ->add_option("--shard", options->shard,
                    "I/N: make only every N-th run, starting with the I-th; merge the files later")
       ->capture_default_str();
+  add_cache_option(*command, options->cache);
   command->add_flag("--resume", options->resume, "go on with what FILE and FILE.parts hold");
   command->footer(settings_text(true));
 }

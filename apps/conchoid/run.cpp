@@ -17,7 +17,7 @@ namespace conchoid {
 namespace {
 
 struct RunCommand {
-  std::string scene, method = "bem", database, out, solver = body_solver_names().front();
+  std::string scene, method = "bem", database, out, cache, solver = body_solver_names().front();
   std::vector<std::string> formats;  ///< empty: the scene's
   int frames = 0;                    ///< 0: the scene's
   bool resume = false;
@@ -81,6 +81,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   checked_method(options.method, options.regressor);
   Scene scene = read_scene(command.scene);
   scene.run.solver = command.solver;
+  scene.run.cache = open_cache(command.cache);
   std::optional<RunDocument> document = finished_run(command, scene, options);
   if (document)
     message(command.out + ": finished already; reported again");
@@ -118,6 +119,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_option("--database", options->database,
                       "file written by conchoid forest train, for --method " + trained);
+  add_cache_option(*command, options->cache);
   command->add_option("--frames", options->frames, "most frames, in place of the scene's")
       ->check(CLI::Range(1, 100000));
   command->add_option("--out", options->out, "run folder to write; without it nothing is written");

@@ -50,14 +50,17 @@ std::string sif_text(const SifReport& report) {
 }  // namespace
 
 void add_sif(CLI::App& program, Invocation& invocation) {
-  const auto scene = std::make_shared<std::string>();
+  const auto file = std::make_shared<std::string>(), cache = std::make_shared<std::string>();
   CLI::App* command = add_command(program, invocation, "sif",
                                   "Stress intensity factors along the initial crack fronts; nothing grows",
-                                  [scene, &invocation] {
-                                    const SifReport report = compute_sifs(read_scene(*scene));
+                                  [file, cache, &invocation] {
+                                    Scene scene = read_scene(*file);
+                                    scene.run.cache = open_cache(*cache);
+                                    const SifReport report = compute_sifs(scene);
                                     print(invocation.common.json ? sif_json(report) : sif_text(report));
                                   });
-  command->add_option("SCENE", *scene, "scene file (TOML)")->required();
+  command->add_option("SCENE", *file, "scene file (TOML)")->required();
+  add_cache_option(*command, *cache);
   command->footer(
       "K in Pa√m: K_I opening, K_II in-plane, K_III anti-plane, in the frame e1 (crack normal), e2 "
       "(forward),\n"

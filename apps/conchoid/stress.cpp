@@ -47,13 +47,17 @@ std::string stress_text(const StressReport& report) {
 }  // namespace
 
 void add_stress(CLI::App& program, Invocation& invocation) {
-  const auto scene = std::make_shared<std::string>();
-  CLI::App* command = add_command(program, invocation, "stress",
-                                  "Stress on the surface of the body as it stands", [scene, &invocation] {
-                                    const StressReport report = compute_stress(read_scene(*scene));
-                                    print(invocation.common.json ? stress_json(report) : stress_text(report));
-                                  });
-  command->add_option("SCENE", *scene, "scene file (TOML)")->required();
+  const auto file = std::make_shared<std::string>(), cache = std::make_shared<std::string>();
+  CLI::App* command =
+      add_command(program, invocation, "stress", "Stress on the surface of the body as it stands",
+                  [file, cache, &invocation] {
+                    Scene scene = read_scene(*file);
+                    scene.run.cache = open_cache(*cache);
+                    const StressReport report = compute_stress(scene);
+                    print(invocation.common.json ? stress_json(report) : stress_text(report));
+                  });
+  command->add_option("SCENE", *file, "scene file (TOML)")->required();
+  add_cache_option(*command, *cache);
   command->footer("Principal stresses in Pa, tension positive. The keys of a scene: conchoid help-scene.");
 }
 

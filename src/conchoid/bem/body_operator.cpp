@@ -1,8 +1,10 @@
 #include "conchoid/bem/body_operator.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "conchoid/bem/rigid_body.hpp"
+#include "conchoid/core/bytes.hpp"
 
 namespace conchoid {
 
@@ -11,10 +13,59 @@ BodyOperator::BodyOperator(TriMesh surface, std::vector<BoundaryKind> kinds, con
     : settings_(settings),
       discretisation_(std::move(surface), std::move(kinds), m, settings.quadrature_tolerance),
       entries_(discretisation_),
-      solver_(make_body_solver(settings.solver, entries_, rigid_motions())),
+      solver_(make_body_solver(settings.solver, entries_, rigid_motions(), kept())),
       columns_(entries_) {
-  right_hand_sides(expected);
+  make_columns(expected);
   entries_.drop_pairs();
+}
+
+// All that the factors depend on.
+KeptSystem BodyOperator::kept() const {
+  if (!settings_.cache) return {};
+  ByteWriter all;
+  all.put_text(settings_.solver);
+  all.put(settings_.quadrature_tolerance);
+  all.put(material().youngs_modulus);
+  all.put(material().poisson_ratio);
+  all.put(static_cast<std::uint64_t>(surface().node_count()));
+  for (const Vec3& x : surface().positions)
+    all.put_all(std::span<const double>(x.data(), 3));
+  for (const auto& c : surface().corners)
+    for (const NodeId n : c)
+      all.put(n.value);
+  for (const BoundaryKind& kind : kinds()) {
+    const Mat3 held = kind.held();
+    all.put_all(std::span<const double>(held.data(), 9));
+  }
+  return {settings_.cache.get(), cache_name("operator", all.bytes())};
+}
+
+// Columns are kept together with those that the same loads asked for.
+void BodyOperator::make_columns(std::span<const LoadCase> loads) {
+  const KeptSystem system = kept();
+  if (!system.cache || loads.empty()) {
+    right_hand_sides(loads);
+    return;
+  }
+  ByteWriter places;
+  places.put_text(system.name);
+  for (const LoadCase& load : loads) {
+    require_fitting_load(surface(), kinds(), load);
+    for (const LoadSource& source : sources_of(load)) {
+      places.put(static_cast<std::uint32_t>(source.kind == Prescribed::displacement));
+      places.put(static_cast<std::uint64_t>(source.index));
+    }
+  }
+  const std::string name = cache_name("columns", places.bytes());
+  if (const std::optional<std::string> bytes = system.cache->recall(name)) {
+    ByteReader in(*bytes);
+    columns_.get(in);
+    return;
+  }
+  right_hand_sides(loads);
+  ByteWriter out;
+  columns_.put(out);
+  system.cache->keep(name, out.bytes());
 }
 
 RigidMotions BodyOperator::rigid_motions() const {

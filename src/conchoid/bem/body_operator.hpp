@@ -16,6 +16,7 @@ struct BemSettings {
   double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
   std::string solver = "dense";        ///< one of body_solver_names()
+  std::shared_ptr<const ByteCache> cache = nullptr;  ///< of factors and columns of loads, made or used before
 };
 
 /// An uncracked elastic body: surface, material, and which quantity is prescribed where. Its boundary element
@@ -57,6 +58,8 @@ class BodyOperator {
 
  private:
   RigidMotions rigid_motions() const;
+  KeptSystem kept() const;
+  void make_columns(std::span<const LoadCase> loads);
 
   BemSettings settings_;
   BodyDiscretisation discretisation_;

@@ -27,10 +27,10 @@ std::vector<std::string> body_solver_names() {
 }
 
 std::unique_ptr<BodySolver> make_body_solver(const std::string& name, BodyEntries& entries,
-                                             const RigidMotions& motions) {
+                                             const RigidMotions& motions, const KeptSystem& kept) {
   std::string known;
   for (const auto& [candidate, factory] : solvers()) {
-    if (candidate == name) return factory(entries, motions);
+    if (candidate == name) return factory(entries, motions, kept);
     known += (known.empty() ? "" : ", ") + candidate;
   }
   throw InputError("solver '" + name + "' is not known; use one of: " + known);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conchoid/bem/body_entries.hpp"
+#include "conchoid/core/byte_cache.hpp"
 
 namespace conchoid {
 
@@ -28,14 +29,21 @@ class BodySolver {
 /// Rigid motions in terms of the unknown displacements, each 3·free nodes long.
 using RigidMotions = std::vector<std::vector<double>>;
 
+/// Where a solver looks for what it is about to make, and leaves it: none, and nothing is kept.
+struct KeptSystem {
+  const ByteCache* cache = nullptr;
+  std::string name;  ///< of everything the system depends on
+};
+
 /// Errors: ComputationError when the system is not definite (the mesh has overlapping or nearly degenerate
 /// triangles).
-using BodySolverFactory = std::unique_ptr<BodySolver> (*)(BodyEntries& entries, const RigidMotions& motions);
+using BodySolverFactory = std::unique_ptr<BodySolver> (*)(BodyEntries& entries, const RigidMotions& motions,
+                                                          const KeptSystem& kept);
 
 /// Names of the solvers there are, the default first.
 std::vector<std::string> body_solver_names();
 /// Errors: InputError for a name that is not known.
 std::unique_ptr<BodySolver> make_body_solver(const std::string& name, BodyEntries& entries,
-                                             const RigidMotions& motions);
+                                             const RigidMotions& motions, const KeptSystem& kept = {});
 
 }  // namespace conchoid

@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/tiled_cholesky.hpp"
 #include "conchoid/core/blas_threads.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 
@@ -21,12 +22,13 @@ std::span<const Id> part(const std::vector<Id>& all, std::size_t first, std::siz
 
 class DenseSolver : public BodySolver {
  public:
-  DenseSolver(BodyEntries& entries, const RigidMotions& motions)
+  DenseSolver(BodyEntries& entries, const RigidMotions& motions, const KeptSystem& kept)
       : nq_(entries.body().tractions()),
         nu_(entries.body().displacements()),
         V_(nq_),
         S_(nu_),
         W_(nq_ * nu_) {
+    if (kept.cache && recall(kept)) return;
     const OneBlasThread one_blas_thread;
     entries.keep_pairs();
     factor_single_layer(entries);
@@ -36,6 +38,7 @@ class DenseSolver : public BodySolver {
       throw ComputationError(
           "the body's stiffness is not positive definite: the surface mesh has overlapping or nearly "
           "degenerate triangles; run `conchoid mesh` on it and remesh");
+    if (kept.cache) keep(kept);
   }
 
   void apply(const double* x, double* y, std::size_t count) const override {
@@ -79,6 +82,24 @@ class DenseSolver : public BodySolver {
 
  private:
   std::size_t size() const { return nq_ + nu_; }
+
+  void keep(const KeptSystem& kept) const {
+    ByteWriter out;
+    V_.put(out);
+    S_.put(out);
+    out.put_all(std::span<const double>(W_));
+    kept.cache->keep(kept.name, out.bytes());
+  }
+
+  bool recall(const KeptSystem& kept) {
+    const std::optional<std::string> bytes = kept.cache->recall(kept.name);
+    if (!bytes) return false;
+    ByteReader in(*bytes);
+    V_.get(in);
+    S_.get(in);
+    W_ = in.get_all<double>(W_.size());
+    return true;
+  }
 
   // Vectors in fixed portions: task(tractions, displacements, vectors).
   template <class Task>
@@ -163,8 +184,9 @@ class DenseSolver : public BodySolver {
 
 }  // namespace
 
-std::unique_ptr<BodySolver> make_dense_solver(BodyEntries& entries, const RigidMotions& motions) {
-  return std::make_unique<DenseSolver>(entries, motions);
+std::unique_ptr<BodySolver> make_dense_solver(BodyEntries& entries, const RigidMotions& motions,
+                                              const KeptSystem& kept) {
+  return std::make_unique<DenseSolver>(entries, motions, kept);
 }
 
 }  // namespace conchoid

@@ -11,6 +11,8 @@ namespace conchoid {
 /// factors. The same bits for every number of threads.
 /// Memory for n triangles, a share h of them held: 4 (tractions + displacements)² = 9 n² (1 + h)² bytes and half
 /// a row of tiles each; 28 n² more while the entries are integrated.
-std::unique_ptr<BodySolver> make_dense_solver(BodyEntries& entries, const RigidMotions& motions);
+/// Factors that are kept have the bits of those that are made.
+std::unique_ptr<BodySolver> make_dense_solver(BodyEntries& entries, const RigidMotions& motions,
+                                              const KeptSystem& kept = {});
 
 }  // namespace conchoid

@@ -186,7 +186,8 @@ void solve_by_products(const std::function<void(const double* x, double* y)>& ap
   solve_single_layer(f_D);
 }
 
-std::unique_ptr<BodySolver> make_iterative_solver(BodyEntries& entries, const RigidMotions& motions) {
+std::unique_ptr<BodySolver> make_iterative_solver(BodyEntries& entries, const RigidMotions& motions,
+                                                  const KeptSystem&) {
   return std::make_unique<IterativeSolver>(entries, motions);
 }
 

@@ -34,6 +34,7 @@ void solve_by_products(const std::function<void(const double* x, double* y)>& ap
 /// (compressed matrices). α of the rigid motions is the mean of D's diagonal.
 /// Memory for n triangles, a share h of them held: 18 n² (1 + 3 h²) bytes; 28 n² more while the entries are
 /// integrated.
-std::unique_ptr<BodySolver> make_iterative_solver(BodyEntries& entries, const RigidMotions& motions);
+std::unique_ptr<BodySolver> make_iterative_solver(BodyEntries& entries, const RigidMotions& motions,
+                                                  const KeptSystem& kept = {});
 
 }  // namespace conchoid

@@ -94,6 +94,25 @@ std::vector<double> LoadColumns::right_hand_side(const LoadCase& load) {
   return f;
 }
 
+void LoadColumns::put(ByteWriter& out) const {
+  const std::lock_guard lock(mutex_);
+  out.put(static_cast<std::uint64_t>(kept_.size()));
+  for (const auto& [source, column] : kept_) {
+    out.put(static_cast<std::uint32_t>(source.kind == Prescribed::displacement));
+    out.put(static_cast<std::uint64_t>(source.index));
+    out.put_all(std::span<const double>(column));
+  }
+}
+
+void LoadColumns::get(ByteReader& in) {
+  const std::lock_guard lock(mutex_);
+  for (auto n = in.get<std::uint64_t>(); n > 0; --n) {
+    const auto kind = in.get<std::uint32_t>() == 0 ? Prescribed::traction : Prescribed::displacement;
+    const auto index = static_cast<std::size_t>(in.get<std::uint64_t>());
+    kept_.try_emplace({kind, index}, in.get_all<double>(3 * entries_.body().unknowns()));
+  }
+}
+
 std::size_t LoadColumns::bytes() const {
   const std::lock_guard lock(mutex_);
   return kept_.size() * 3 * entries_.body().unknowns() * sizeof(double);

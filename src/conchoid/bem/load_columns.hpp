@@ -8,6 +8,7 @@
 
 #include "conchoid/bem/body_entries.hpp"
 #include "conchoid/bem/load_case.hpp"
+#include "conchoid/core/bytes.hpp"
 
 namespace conchoid {
 
@@ -39,6 +40,10 @@ class LoadColumns {
   /// f_D, then f_N: as long as the unknowns.
   std::vector<double> right_hand_side(const LoadCase& load);
   std::size_t bytes() const;
+
+  /// Columns as they are, and back.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 
  private:
   std::vector<double> integrate(const LoadSource& source) const;

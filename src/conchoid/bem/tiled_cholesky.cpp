@@ -6,6 +6,8 @@
 
 #include "conchoid/bem/blas.hpp"
 #include "conchoid/core/blas_threads.hpp"
+#include "conchoid/core/bytes.hpp"
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
@@ -37,6 +39,20 @@ std::size_t TiledCholesky::bytes() const {
   for (const auto& tile : data_)
     entries += tile.size();
   return entries * sizeof(double);
+}
+
+void TiledCholesky::put(ByteWriter& out) const {
+  out.put(static_cast<std::uint64_t>(n_));
+  out.put(scale_);
+  for (const auto& tile : data_)
+    out.put_all(std::span<const double>(tile));
+}
+
+void TiledCholesky::get(ByteReader& in) {
+  if (in.get<std::uint64_t>() != n_) throw InputError("has factors of another size");
+  scale_ = in.get<double>();
+  for (auto& tile : data_)
+    tile = in.get_all<double>(tile.size());
 }
 
 std::size_t TiledCholesky::tile_rows(std::size_t i) const {

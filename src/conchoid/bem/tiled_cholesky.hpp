@@ -5,6 +5,9 @@
 
 namespace conchoid {
 
+class ByteWriter;
+class ByteReader;
+
 /// Lower Cholesky factor of a large symmetric positive definite matrix, on square tiles: s A = L Lᵀ, with a
 /// power of two s that makes the digits of L independent of the units.
 /// Factoring runs as tasks over tiles, each with one BLAS thread. Tile size and order of the updates of a tile
@@ -29,6 +32,10 @@ class TiledCholesky {
   /// Replaces A by L. False when A is not positive definite; the tiles are then spoilt.
   [[nodiscard]] bool factor();
   double scale() const { return scale_; }
+
+  /// L and s as they are, and back; get() throws OutOfBytes, and InputError for those of another size.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 
   // In place on `count` vectors whose first entries lie `stride` apart; on the calling thread.
   void solve_lower(double* b, std::size_t count, std::size_t stride) const;       ///< L⁻¹ b

@@ -11,6 +11,7 @@
 #include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/remesh/weld.hpp"
+#include "conchoid/sim/kept_remesh.hpp"
 
 namespace conchoid {
 namespace {
@@ -27,7 +28,7 @@ Body with_settings(Body body, const BodySettings& settings) {
     scale(crack, settings.scale);
   body.surface = body.detailed;
   if (!settings.remesh || body.infinite()) return body;
-  TriMesh elements = remesh(body.detailed, *settings.remesh);
+  TriMesh elements = kept_remesh(body.detailed, *settings.remesh, settings.cache.get());
   return with_elements(std::move(body), std::move(elements));
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "conchoid/core/byte_cache.hpp"
 #include "conchoid/mesh/regions.hpp"
 #include "conchoid/mesh/surface_attributes.hpp"
 #include "conchoid/surface/fragments.hpp"
@@ -35,9 +37,10 @@ struct Body {
 };
 
 struct BodySettings {
-  std::optional<int> remesh;  ///< boundary elements wanted; none: the mesh as it is
-  double scale = 1;           ///< factor on all coordinates
-  bool guess_unit = false;    ///< warn of a file that is hardly in metres
+  std::optional<int> remesh;                         ///< boundary elements wanted; none: the mesh as it is
+  double scale = 1;                                  ///< factor on all coordinates
+  bool guess_unit = false;                           ///< warn of a file that is hardly in metres
+  std::shared_ptr<const ByteCache> cache = nullptr;  ///< of remeshed surfaces
 };
 
 /// Reads a surface; loose seams are welded (remesh/weld.hpp), with a warning. Throws InputError for a mesh that bounds no body, with its defects.

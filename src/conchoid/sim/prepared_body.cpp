@@ -93,7 +93,7 @@ SurfaceAttributes element_materials(const Body& body) {
 }  // namespace
 
 Body scene_body(const Scene& scene) {
-  const BodySettings settings{scene.body.remesh, scene.body.scale, !scene.body.scale_given};
+  const BodySettings settings{scene.body.remesh, scene.body.scale, !scene.body.scale_given, scene.run.cache};
   return scene.body.model.empty() ? body_from_file(scene.body.mesh, settings)
                                   : body_from_model(scene.body.model, settings);
 }
@@ -138,7 +138,8 @@ PreparedBody prepare(const Scene& scene, Body body) {
   const LoadCase load = load_of(scene, out);
   out.elastic = std::make_shared<const BodyOperator>(
       out.surface, kinds_of(scene, out), scene.material.elastic(),
-      BemSettings{scene.run.quadrature_tolerance, scene.run.contact, scene.run.solver}, std::span(&load, 1));
+      BemSettings{scene.run.quadrature_tolerance, scene.run.contact, scene.run.solver, scene.run.cache},
+      std::span(&load, 1));
   return out;
 }
 

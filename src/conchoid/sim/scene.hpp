@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "conchoid/core/byte_cache.hpp"
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 #include "conchoid/material/material_field.hpp"
@@ -115,6 +117,7 @@ struct RunSpec {
   bool published_compression = false;  ///< with_compressive_factor() before growth, else closed faces
   double quadrature_tolerance = 1e-6;
   std::string solver = "dense";  ///< of the body (bem/body_solver.hpp); no key of the scene, answers agree
+  std::shared_ptr<const ByteCache> cache;  ///< of prepared bodies; no key of the scene
   bool exact_rayleigh_speed = true;
   double smallest_fragment = 1e-4;  ///< share of the body's volume
   int max_fragments = 0;            ///< 0: no limit

@@ -1,0 +1,87 @@
+#include "conchoid/core/byte_cache.hpp"
+
+#include <cstdint>
+#include <system_error>
+
+#include "conchoid/core/bytes.hpp"
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr std::string_view kMagic = "CNCHKEPT";
+constexpr std::uint32_t kVersion = 1;
+
+std::string content_of(const std::string& file, const std::string& name) {
+  ByteReader in(file);
+  if (in.get_raw(kMagic.size()) != kMagic) throw InputError("is not a file of this cache");
+  if (in.get<std::uint32_t>() != kVersion) throw InputError("has another version");
+  const auto hash = in.get<std::uint64_t>();
+  if (in.get_text() != name) throw InputError("bears another's name");
+  std::string content = in.get_text();
+  if (in.left() > 0 || hash_bytes(content) != hash) throw InputError("is damaged");
+  return content;
+}
+
+}  // namespace
+
+ByteCache::ByteCache(std::filesystem::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error || !std::filesystem::is_directory(folder_))
+    throw InputError("--cache " + folder_.string() + ": is no folder and cannot be made one (" +
+                     error.message() + "); name another");
+}
+
+std::filesystem::path ByteCache::file_of(const std::string& name) const {
+  return folder_ / (name + ".cache");
+}
+
+std::optional<std::string> ByteCache::recall(const std::string& name) const {
+  const std::filesystem::path file = file_of(name);
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return std::nullopt;
+  const auto ignored = [&](const std::string& why) {
+    warning(file.string() + ": " + why + "; what it should hold is made again and takes its place");
+  };
+  try {
+    return content_of(read_bytes(file), name);
+  } catch (const InputError& e) {
+    ignored(e.what());
+  } catch (const OutOfBytes&) {
+    ignored("is cut short");
+  }
+  return std::nullopt;
+}
+
+void ByteCache::keep(const std::string& name, std::string_view bytes) const {
+  ByteWriter out;
+  out.put_raw(kMagic);
+  out.put(kVersion);
+  out.put(hash_bytes(bytes));
+  out.put_text(name);
+  out.put_text(bytes);
+  try {
+    write_bytes(file_of(name), out.bytes());
+  } catch (const InputError& e) {
+    warning(std::string(e.what()) + "; nothing is kept in the cache");
+  } catch (const ComputationError& e) {
+    warning(std::string(e.what()) + "; nothing is kept in the cache");
+  }
+}
+
+std::string cache_name(const std::string& kind, std::string_view made_from) {
+  ByteWriter all;
+  all.put_text(CONCHOID_VERSION);
+  all.put_text(__VERSION__);
+#if defined(__x86_64__)  // by which BLAS and our own kernels choose their instructions
+  for (const int has :
+       {__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"), __builtin_cpu_supports("avx512f")})
+    all.put(static_cast<std::uint32_t>(has != 0));
+#endif
+  all.put_text(made_from);
+  return kind + "-" + hex(hash_bytes(all.bytes(), 0)) + hex(hash_bytes(all.bytes(), 1));
+}
+
+}  // namespace conchoid
