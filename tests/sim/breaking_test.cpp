@@ -105,7 +105,7 @@ TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, HollowBodies,
-    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 0.25},
+    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 0.4},
                     Hollow{"ThinnerTube", shapes::tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16, 1.2},
                     Hollow{"ThickTube", shapes::tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22, 0.2},
                     Hollow{"TubeOfThreeRows", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.14, 0.8},

@@ -26,6 +26,8 @@ namespace {
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 constexpr int kUnresolvedFrames = 3;      // in a row, after which what is left to break is looked at
+// × area of the cracks: what is left of a body, not a chip off one that a young crack could still cross.
+constexpr double kLargestShareLeft = 0.2;
 constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
 constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
 
@@ -189,7 +191,9 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   const auto breaks = [&](const LastLigament& ligament) {
     if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
     if (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) return driven(ligament, 1);
-    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r && driven(ligament, kOverloadedRim);
+    const double left = static_cast<double>(ligament.faces.size()) * std::pow(ligament.grid->size(), 2);
+    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r &&
+           left <= kLargestShareLeft * surface_area(crack.trimmed) && driven(ligament, kOverloadedRim);
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
