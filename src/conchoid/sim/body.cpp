@@ -27,7 +27,7 @@ Body with_settings(Body body, const BodySettings& settings) {
     scale(crack, settings.scale);
   body.surface = body.detailed;
   if (!settings.remesh || body.infinite()) return body;
-  TriMesh elements = remesh(body.detailed, *settings.remesh);
+  TriMesh elements = remesh(body.detailed, *settings.remesh, settings.elements);
   return with_elements(std::move(body), std::move(elements));
 }
 

@@ -7,6 +7,7 @@
 
 #include "conchoid/mesh/regions.hpp"
 #include "conchoid/mesh/surface_attributes.hpp"
+#include "conchoid/remesh/local_edges.hpp"
 #include "conchoid/surface/fragments.hpp"
 
 namespace conchoid {
@@ -38,6 +39,7 @@ struct BodySettings {
   std::optional<int> remesh;  ///< boundary elements wanted; none: the mesh as it is
   double scale = 1;           ///< factor on all coordinates
   bool guess_unit = false;    ///< warn of a file that is hardly in metres
+  RemeshSettings elements = {};  ///< where remeshing makes them short, at the final size
 };
 
 /// Reads a surface; loose seams are welded (remesh/weld.hpp), with a warning. Throws InputError for a mesh that bounds no body, with its defects.
