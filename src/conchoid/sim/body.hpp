@@ -36,9 +36,9 @@ struct Body {
 };
 
 struct BodySettings {
-  std::optional<int> remesh;  ///< boundary elements wanted; none: the mesh as it is
-  double scale = 1;           ///< factor on all coordinates
-  bool guess_unit = false;    ///< warn of a file that is hardly in metres
+  std::optional<int> remesh;     ///< boundary elements wanted; none: the mesh as it is
+  double scale = 1;              ///< factor on all coordinates
+  bool guess_unit = false;       ///< warn of a file that is hardly in metres
   RemeshSettings elements = {};  ///< where remeshing makes them short, at the final size
 };
 
