@@ -116,7 +116,6 @@ struct Breakup::State {
   bool ended = false;
 
   std::size_t old_cracks, new_cracks = 0;  // of bodies that have ended
-  std::size_t spent_on_chips = 0;          // of these
   int frame = 0;
   std::size_t triangles = 0, bodies = 1;
   Relay relay;
@@ -138,7 +137,7 @@ struct Breakup::State {
 
   std::size_t cracks_left() const {
     const auto allowed = static_cast<std::size_t>(run.max_cracks);
-    return allowed - std::min(allowed, new_cracks - spent_on_chips);
+    return allowed - std::min(allowed, new_cracks);
   }
   bool few_enough() const {
     return run.max_fragments == 0 || pieces->count() < static_cast<std::size_t>(run.max_fragments);
@@ -154,8 +153,6 @@ struct Breakup::State {
   bool begin_next();
   bool begin_piece(Waiting& piece);
   bool may_break(const Fragment& piece) const;
-  bool is_chip(const Fragment& piece) const { return piece.volume < run.smallest_body * volume; }
-  void forgive_chips(const std::vector<Fragment>& cut);
   void wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most);
   void end_body(StopReason reason);
   void end_without_chips(StopReason reason);
@@ -183,13 +180,6 @@ bool Breakup::State::may_break(const Fragment& piece) const {
   const double r = body->crack_edge;
   return piece.volume >= std::max(run.smallest_body * volume, kSmallestVolume * r * r * r) &&
          (cracks_left() > 0 || !piece.unfinished.sheets.empty());
-}
-
-// Cracks that took off no more than chips leave others to start.
-void Breakup::State::forgive_chips(const std::vector<Fragment>& cut) {
-  if (cut.size() > 1 &&
-      std::all_of(cut.begin() + 1, cut.end(), [&](const Fragment& f) { return is_chip(f); }))
-    spent_on_chips += std::min(cut.size() - 1, fracture->new_cracks());
 }
 
 void Breakup::State::wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most) {
@@ -261,7 +251,6 @@ void Breakup::State::end_first(StopReason reason) {
   const std::vector<Fragment> raw = goes_on && count > 1 ? cut.fragments : std::vector<Fragment>{};
   pieces.emplace(body, std::move(cut), output);
   if (may_go_on(reason)) return;
-  forgive_chips(raw);
   wait(raw, 0, raw.size());
 }
 
@@ -279,7 +268,6 @@ void Breakup::State::end_piece() {
     return;
   }
   const std::vector<Fragment> raw = cut.fragments;
-  forgive_chips(raw);
   const std::size_t first = pieces->replace(*id, std::move(cut));
   if (raw.size() > 1) wait(raw, first, raw.size());
 }

@@ -316,7 +316,7 @@ const std::vector<Setting>& settings() {
        "most frames to simulate; a front moves at most crack per frame", between(1, 100000)},
       {"run", "max_cracks", integer, "cracks", "1",
        "new cracks that may start in the whole run, on the surface or as branches on faces of cracks; 0: "
-       "only the initial ones. One that takes off no more than chips (smallest_body) does not count",
+       "only the initial ones",
        between(0, 10000)},
       {"run", "max_cracks_per_frame", integer, "cracks", "1",
        "new cracks that may start in one frame; the body is solved again after each, so that the next one "
