@@ -77,7 +77,7 @@ TEST(Breakup, FacesOfAllPiecesLeadBackToTheBody) {
       const Vec3 x = centroid(f.mesh, TriId(t));
       const double area = area_vector(f.mesh, TriId(t)).norm();
       const bool on_cube = std::abs(x.cwiseAbs().maxCoeff() - 0.5) < 1e-6;  // slits are open by 4e-6
-      if (area > 1e-9) {
+      if (area > 1e-6) {  // slivers at a mouth lie within the slit's width of the surface
         EXPECT_EQ(f.face_kind[t] == FaceKind::original, on_cube);
       }
       if (f.face_kind[t] == FaceKind::fracture) {
