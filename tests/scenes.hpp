@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "arbitrary_rotation.hpp"
 #include "conchoid/core/vec.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/sim/scene.hpp"
@@ -76,15 +77,6 @@ inline std::string pulled_cube_text() {
   return "[body]\nmodel = 'cube'\n" + material_text() + resolution_text(0.1, 0.02) +
          boundary_text("z+", "traction", {3e7, 1e7, 9e7}) +
          boundary_text("z-", "traction", {-3e7, -1e7, -9e7}) + "[run]\ninertia_relief = true\n";
-}
-
-/// A rotation about no axis of note, orthogonal to the last bit or two.
-inline Mat3 arbitrary_rotation() {
-  const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();
-  const Vec3 b = cross(a, Vec3(0.2, 0.9, 0.4)).normalized();
-  Mat3 rotation;
-  rotation << a, b, cross(a, b);
-  return rotation;
 }
 
 inline Scene scene_from_text(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "arbitrary_rotation.hpp"
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/bem/rigid_body.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -14,15 +15,8 @@ namespace conchoid {
 namespace {
 
 const ElasticConstants kGlassy{3.1e9, 0.327};
+const Mat3 kTurn = test::arbitrary_rotation();
 using Kinds = std::vector<BoundaryKind>;
-
-Mat3 turn() {
-  const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();
-  const Vec3 b = cross(a, Vec3(0.2, 0.9, 0.4)).normalized();
-  Mat3 rotation;
-  rotation << a, b, cross(a, b);
-  return rotation;
-}
 
 BoundaryKind across(const Vec3& n) {
   return BoundaryKind::holding({&n, 1});
@@ -110,9 +104,9 @@ TEST(Components, RollersOnThreePlanesHoldAndAreExact) {
 }
 
 TEST(Components, RollersInTurnedAxesAreExact) {
-  const TriMesh mesh = turned(box_mesh({1, 1.2, 0.8}, 2, 2, 2), turn());
+  const TriMesh mesh = turned(box_mesh({1, 1.2, 0.8}, 2, 2, 2), kTurn);
   const Kinds kinds = kinds_by(mesh, [](const Vec3& x, const Vec3& n) {
-    return rollers_on_three_planes(turn().transpose() * x, turn().transpose() * n) == BoundaryKind::traction
+    return rollers_on_three_planes(kTurn.transpose() * x, kTurn.transpose() * n) == BoundaryKind::traction
                ? BoundaryKind::traction
                : across(n);
   });
@@ -136,10 +130,10 @@ TEST(Components, ARollerLeavesThreeMotionsThatAreTakenOut) {
 
 TEST(Components, OneAndTwoComponentsBesideAFixedPatchAreExact) {
   const TriMesh mesh = icosphere(1, 1);
-  const Vec3 pair[] = {turn().col(0), turn().col(1)};
+  const Vec3 pair[] = {kTurn.col(0), kTurn.col(1)};
   expect_exact(affine(mesh, kinds_by(mesh, [&](const Vec3& x, const Vec3&) {
                         return x.y() > 0.6    ? BoundaryKind::displacement
-                               : x.x() > 0.5  ? across(turn().col(2))
+                               : x.x() > 0.5  ? across(kTurn.col(2))
                                : x.z() < -0.5 ? BoundaryKind::holding(pair)
                                               : BoundaryKind::traction;
                       })));
@@ -167,11 +161,11 @@ TEST(Components, JoinedProjectionsHoldBothSpaces) {
   EXPECT_EQ(join_held(x, x), x);
   EXPECT_EQ(join_held(Mat3::Zero(), y), y);
   EXPECT_EQ(join_held(y, Mat3::Identity()), Mat3(Mat3::Identity()));
-  const Mat3 a = across(turn().col(0)).held(), b = across(Vec3(1, 1, 1).normalized()).held(),
+  const Mat3 a = across(kTurn.col(0)).held(), b = across(Vec3(1, 1, 1).normalized()).held(),
              both = join_held(a, b);
   EXPECT_LT((both * both - both).norm(), 1e-14);
   EXPECT_LT((both * a - a).norm() + (both * b - b).norm(), 1e-14);
-  EXPECT_EQ(join_held(both, across(cross(turn().col(0), Vec3(1, 1, 1)).normalized()).held()),
+  EXPECT_EQ(join_held(both, across(cross(kTurn.col(0), Vec3(1, 1, 1)).normalized()).held()),
             Mat3(Mat3::Identity()));
 }
 

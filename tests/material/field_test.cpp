@@ -5,20 +5,13 @@
 #include <functional>
 #include <numbers>
 
+#include "arbitrary_rotation.hpp"
 #include "conchoid/core/random.hpp"
 #include "conchoid/material/material_field.hpp"
 #include "material/sample_grids.hpp"
 
 namespace conchoid {
 namespace {
-
-Mat3 some_turn() {
-  const Vec3 a = Vec3(0.37, -0.61, 0.83).normalized();
-  const Vec3 b = cross(a, Vec3(0.2, 0.9, 0.4)).normalized();
-  Mat3 turn;
-  turn << a, b, cross(a, b);
-  return turn;
-}
 
 struct Kind {
   const char* name;
@@ -42,7 +35,7 @@ const std::vector<Kind> kKinds = {
     {"thin_boundaries", {kThinBoundaries, {}}},
     {"clamped", {Voxels{test::random_grid(), 0.8, Outside::clamped}, {}}},
     {"periodic", {Voxels{test::random_grid(), 0.8, Outside::periodic}, {}}},
-    {"placed", {kGrains, {Vec3(0.3, 0.1, -0.2), some_turn()}}},
+    {"placed", {kGrains, {Vec3(0.3, 0.1, -0.2), test::arbitrary_rotation()}}},
 };
 
 Vec3 random_point(Random& random) {
@@ -114,7 +107,7 @@ TEST_P(FieldKind, ScalingByAPowerOfTwoKeepsTheBits) {
 
 TEST_P(FieldKind, TurnsWithTheBody) {
   FieldFactor turned = GetParam().factor;
-  Mat3 turn = some_turn();
+  Mat3 turn = test::arbitrary_rotation();
   turn.col(0) *= -1;  // and mirrors
   turned.placement.axes = turn * turned.placement.axes;
   if (turned.placement.origin) turned.placement.origin = turn * *turned.placement.origin;

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "conchoid/sim/run.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // Cracks that grow towards a load that presses: bars in bending, a disc split between two pads.
 namespace conchoid {
 namespace {
-
-RunResult run(const std::string& text) {
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
-}
 
 std::string bar_text() {
   return "[body]\nmodel = 'bar'\n" + test::material_text() + test::resolution_text(0.008, 0.002);
@@ -88,9 +83,10 @@ std::string disc_text(const std::string& mesh, double tilt) {
 }  // namespace
 
 TEST(NotchedBar, ThreePointBendingPartsItFromTheNotchToTheLoad) {
-  const RunResult result = run(bar_text() + test::boundary_text("support-left", "force", {0, 0, 5e4}) +
-                               test::boundary_text("support-right", "force", {0, 0, 5e4}) +
-                               test::boundary_text("load", "force", {0, 0, -1e5}) + "[run]\nframes = 20\n");
+  const RunResult result =
+      test::run_text(bar_text() + test::boundary_text("support-left", "force", {0, 0, 5e4}) +
+                     test::boundary_text("support-right", "force", {0, 0, 5e4}) +
+                     test::boundary_text("load", "force", {0, 0, -1e5}) + "[run]\nframes = 20\n");
   EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_TRUE(result.document.warnings.empty());
   ASSERT_EQ(result.fragments.size(), 2u);
@@ -104,7 +100,7 @@ class PressedDisc : public ::testing::TestWithParam<int> {};
 
 TEST_P(PressedDisc, SplitsAlongTheLoad) {
   const test::TemporaryFolder folder;
-  const RunResult result = run(
+  const RunResult result = test::run_text(
       disc_text(test::write_mesh_in(folder, "disc.obj", disc_body()), GetParam() * std::numbers::pi / 180));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);

@@ -5,17 +5,12 @@
 
 #include "conchoid/sim/run.hpp"
 #include "hollow_bodies.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // Bodies with several cracks, and bodies with holes, in tension: they come apart.
 namespace conchoid {
 namespace {
-
-RunResult run_text(const std::string& text) {
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
-}
 
 std::string glass() {
   return test::material_text({.E = 7e10, .nu = 0.22, .strength = 4.5e7, .toughness = 7.5e5});
@@ -39,10 +34,10 @@ void expect_pieces(const RunResult& result, std::size_t least) {
 class SeveralCracks : public testing::TestWithParam<int> {};
 
 TEST_P(SeveralCracks, PartThePulledCube) {
-  const RunResult result =
-      run_text("[body]\nmodel = 'cube'\n" + glass() + test::boundary_text("z+", "traction", {0, 0, 6e7}) +
-               "[[boundary]]\nregion = 'z-'\nfixed = true\n[resolution]\nsurface = 0.02\n" +
-               fmt::format("[run]\nafter_separation = 'stop'\nframes = 20\nmax_cracks = {}\n", GetParam()));
+  const RunResult result = test::run_text(
+      "[body]\nmodel = 'cube'\n" + glass() + test::boundary_text("z+", "traction", {0, 0, 6e7}) +
+      "[[boundary]]\nregion = 'z-'\nfixed = true\n[resolution]\nsurface = 0.02\n" +
+      fmt::format("[run]\nafter_separation = 'stop'\nframes = 20\nmax_cracks = {}\n", GetParam()));
   expect_pieces(result, 2);
   EXPECT_LT(area(result), GetParam() + 1);
 }
@@ -52,7 +47,7 @@ TEST_P(SeveralCracks, PartThePulledBar) {
   const TriMesh bar = box_mesh({0.02, 0.02, 0.1}, 4, 4, 20);
   const Box box = bounding_box(bar);
   const double e = 1e-4;
-  const RunResult result = run_text(
+  const RunResult result = test::run_text(
       test::mesh_body_text(test::write_mesh_in(folder, "bar.obj", bar)) + glass() +
       test::resolution_text(0.004, 0.0005) +
       test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
@@ -86,7 +81,7 @@ TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
   const test::TemporaryFolder folder;
   const Box box = bounding_box(body.mesh);
   const double e = 1e-6 * box.diagonal();
-  const RunResult result = run_text(
+  const RunResult result = test::run_text(
       test::mesh_body_text(test::write_mesh_in(folder, "body.obj", body.mesh)) +
       test::material_text({.toughness = 1e4}) + test::resolution_text(body.crack_edge, body.crack_edge / 6) +
       test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +

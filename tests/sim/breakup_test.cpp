@@ -11,6 +11,7 @@
 #include "conchoid/sim/piece_scene.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // What happens after a body has come apart.
@@ -31,11 +32,6 @@ std::string cut_cube(double stress, const std::string& run = {}) {
          test::boundary_text("z+", "traction", {0, 0, stress}) + "[run]\n" + run;
 }
 
-RunResult run_text(const std::string& text, RunOptions options = {}) {
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
-}
-
 double total_volume(const std::vector<Fragment>& fragments) {
   double sum = 0;
   for (const Fragment& f : fragments)
@@ -46,7 +42,7 @@ double total_volume(const std::vector<Fragment>& fragments) {
 }  // namespace
 
 TEST(Breakup, ThePartThatIsPulledBreaksAgain) {
-  const RunResult result = run_text(cut_cube(1.5e8));
+  const RunResult result = test::run_text(cut_cube(1.5e8));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_GE(result.fragments.size(), 3u);
   EXPECT_NEAR(total_volume(result.fragments), 1, 1e-9);
@@ -69,7 +65,7 @@ TEST(Breakup, ThePartThatIsPulledBreaksAgain) {
 }
 
 TEST(Breakup, FacesOfAllPiecesLeadBackToTheBody) {
-  const RunResult result = run_text(cut_cube(1.5e8));
+  const RunResult result = test::run_text(cut_cube(1.5e8));
   const TriMesh cube = built_in_model("cube").mesh;
   double fracture = 0, shared = 0;
   for (const Fragment& f : result.fragments) {
@@ -122,17 +118,17 @@ TEST(Breakup, WithoutCracksLeftNothingIsAdded) {
       "[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
       test::boundary_text("z+", "traction", {0, 0, 9e7}) +
       test::boundary_text("z-", "traction", {0, 0, -9e7}) + "[run]\ninertia_relief = true\n";
-  const RunResult on = run_text(once), stopped = run_text(once + "after_separation = 'stop'\n");
+  const RunResult on = test::run_text(once), stopped = test::run_text(once + "after_separation = 'stop'\n");
   ASSERT_EQ(on.document.stop, StopReason::separated);
   EXPECT_EQ(on.document.hash, stopped.document.hash);
-  EXPECT_EQ(run_text(cut_cube(5e7)).document.frames, 0) << "the pull is below the strength";
-  EXPECT_EQ(run_text(cut_cube(1.5e8, "max_cracks = 0\n")).document.frames, 0);
+  EXPECT_EQ(test::run_text(cut_cube(5e7)).document.frames, 0) << "the pull is below the strength";
+  EXPECT_EQ(test::run_text(cut_cube(1.5e8, "max_cracks = 0\n")).document.frames, 0);
 }
 
 TEST(Breakup, EndsAtTheNumberAndTheSizeOfPiecesAsked) {
-  EXPECT_EQ(run_text(cut_cube(1.5e8, "max_fragments = 2\n")).document.frames, 0);
-  EXPECT_EQ(run_text(cut_cube(1.5e8, "smallest_body = 0.8\n")).document.frames, 0);
-  EXPECT_GT(run_text(cut_cube(1.5e8, "smallest_body = 0.7\n")).document.frames, 0);
+  EXPECT_EQ(test::run_text(cut_cube(1.5e8, "max_fragments = 2\n")).document.frames, 0);
+  EXPECT_EQ(test::run_text(cut_cube(1.5e8, "smallest_body = 0.8\n")).document.frames, 0);
+  EXPECT_GT(test::run_text(cut_cube(1.5e8, "smallest_body = 0.7\n")).document.frames, 0);
 }
 
 TEST(Breakup, GoesOnInAPieceFromItsFrameLimit) {
@@ -140,14 +136,14 @@ TEST(Breakup, GoesOnInAPieceFromItsFrameLimit) {
   RunOptions options;
   options.folder = folder / "run";
   options.frames = 2;
-  const RunResult limited = run_text(cut_cube(1.5e8), options);
+  const RunResult limited = test::run_text(cut_cube(1.5e8), options);
   EXPECT_EQ(limited.document.stop, StopReason::frame_limit);
   EXPECT_NEAR(total_volume(limited.fragments), 1, 1e-9);
   options.frames.reset();
   options.resume = true;
-  const RunResult resumed = run_text(cut_cube(1.5e8), options);
+  const RunResult resumed = test::run_text(cut_cube(1.5e8), options);
   EXPECT_EQ(resumed.document.resumed_after, 2);
-  EXPECT_EQ(resumed.document.hash, run_text(cut_cube(1.5e8)).document.hash);
+  EXPECT_EQ(resumed.document.hash, test::run_text(cut_cube(1.5e8)).document.hash);
 }
 
 // The upper part's new face lies in the half space of the region that is held, and is free all the same.
@@ -200,7 +196,7 @@ TEST(Breakup, AChipIsNoSeparation) {
   Breakup database(scene, body, {BreakupSettings::After::chips});
   EXPECT_EQ(database.run(30), StopReason::separated);
   EXPECT_GT(database.frame(), 3) << "not before the body itself has come apart";
-  const RunResult run = run_text(text);
+  const RunResult run = test::run_text(text);
   EXPECT_EQ(run.document.frames, database.frame());
   ASSERT_GE(run.fragments.size(), 3u);
   EXPECT_GT(run.fragments[1].volume, 0.1);
@@ -222,7 +218,7 @@ TEST(LoadReport, AnIntactBodyNamesItsLargestStress) {
                            test::resolution_text(0.1, 0.02) +
                            test::boundary_text("z+", "traction", {0, 0, 3.8e7}) +
                            test::boundary_text("z-", "traction", {0, 0, -3.8e7});
-  const RunDocument doc = run_text(text).document;
+  const RunDocument doc = test::run_text(text).document;
   EXPECT_EQ(doc.stop, StopReason::intact);
   ASSERT_TRUE(doc.stress_over_strength);
   EXPECT_NEAR(*doc.stress_over_strength, 0.5, 0.02);
@@ -233,9 +229,9 @@ TEST(LoadReport, AnIntactBodyNamesItsLargestStress) {
 
 TEST(LoadReport, AnArrestedFrontNamesItsK) {
   const RunDocument doc =
-      run_text("[body]\nmodel = 'edge-crack-cube'\n" + test::material_text() +
-               test::resolution_text(0.1, 0.02) + test::boundary_text("z+", "traction", {0, 0, 1e5}) +
-               test::boundary_text("z-", "traction", {0, 0, -1e5}))
+      test::run_text("[body]\nmodel = 'edge-crack-cube'\n" + test::material_text() +
+                     test::resolution_text(0.1, 0.02) + test::boundary_text("z+", "traction", {0, 0, 1e5}) +
+                     test::boundary_text("z-", "traction", {0, 0, -1e5}))
           .document;
   EXPECT_EQ(doc.stop, StopReason::arrested);
   ASSERT_TRUE(doc.largest_K_over_Kc);
@@ -245,7 +241,7 @@ TEST(LoadReport, AnArrestedFrontNamesItsK) {
 }
 
 TEST(LoadReport, AnOverloadIsSaid) {
-  const RunDocument doc = run_text(cut_cube(25 * 7.6e7, "frames = 1\n")).document;
+  const RunDocument doc = test::run_text(cut_cube(25 * 7.6e7, "frames = 1\n")).document;
   ASSERT_TRUE(doc.stress_over_strength);
   ASSERT_FALSE(doc.warnings.empty());
   EXPECT_NE(doc.warnings.back().find("overload"), std::string::npos);

@@ -6,16 +6,11 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/sim/run.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 namespace conchoid {
 namespace {
-
-RunResult run(const std::string& text) {
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
-}
 
 std::string cube_text(double slope_degrees, double traction) {
   const double a = slope_degrees * std::numbers::pi / 180;
@@ -41,7 +36,7 @@ Vec3 start_normal(const RunResult& result) {
 class PulledCubeAt : public testing::TestWithParam<double> {};
 
 TEST_P(PulledCubeAt, OneCrackSeparatesItIntoTwoPieces) {
-  const RunResult result = run(cube_text(GetParam(), 1e8));
+  const RunResult result = test::run_text(cube_text(GetParam(), 1e8));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.cracks, 1);
   ASSERT_EQ(result.fragments.size(), 2u);
@@ -72,9 +67,9 @@ INSTANTIATE_TEST_SUITE_P(Slopes, PulledCubeAt, testing::Values(0.0, 45.0));
 TEST(PulledCube, UniaxialStressAtFortyFiveDegreesStartsACrackAcrossIt) {
   const Vec3 t(5e7, 0, 5e7);
   const RunResult result =
-      run("[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
-          test::boundary_text("z+", "traction", t) + test::boundary_text("z-", "traction", -t) +
-          test::boundary_text("x+", "traction", t) + test::boundary_text("x-", "traction", -t));
+      test::run_text("[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+                     test::boundary_text("z+", "traction", t) + test::boundary_text("z-", "traction", -t) +
+                     test::boundary_text("x+", "traction", t) + test::boundary_text("x-", "traction", -t));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.cracks, 1);
   ASSERT_GE(result.fragments.size(), 2u);
@@ -89,7 +84,7 @@ TEST(PulledCube, UniaxialStressAtFortyFiveDegreesStartsACrackAcrossIt) {
 }
 
 TEST(WeakLoad, LeavesTheCubeIntact) {
-  const RunResult result = run(cube_text(0, 5e7));
+  const RunResult result = test::run_text(cube_text(0, 5e7));
   EXPECT_EQ(result.document.stop, StopReason::intact);
   EXPECT_EQ(result.cracks, 0);
   EXPECT_EQ(result.document.frames, 0);
@@ -110,7 +105,7 @@ Mat3 tension(double s) {
 
 TEST(Disc, BelowTheToughnessStaysAsItIs) {
   // K_I = 2σ√(a/π) = 0.8 K_c
-  const RunResult result = run(disc_text(tension(1e6), 10));
+  const RunResult result = test::run_text(disc_text(tension(1e6), 10));
   EXPECT_EQ(result.document.stop, StopReason::arrested);
   EXPECT_EQ(result.document.frames, 1);
   EXPECT_EQ(result.largest_growth, 0);
@@ -119,7 +114,7 @@ TEST(Disc, BelowTheToughnessStaysAsItIs) {
 }
 
 TEST(Disc, UnderTensionStaysAFlatDisc) {
-  const RunResult result = run(disc_text(tension(2e6), 6));
+  const RunResult result = test::run_text(disc_text(tension(2e6), 6));
   EXPECT_EQ(result.document.stop, StopReason::frame_limit);
   double height = 0;
   for (const Vec3& x : result.crack.positions)
@@ -142,7 +137,7 @@ TEST(Disc, UnderTensionStaysAFlatDisc) {
 TEST(Disc, UnderShearKinksBySeventyDegreesWhereModeTwoIsPure) {
   Mat3 shear = Mat3::Zero();
   shear(0, 2) = shear(2, 0) = 3e6;
-  const RunResult result = run(disc_text(shear, 2));
+  const RunResult result = test::run_text(disc_text(shear, 2));
   int count = 0;
   double farthest = 0;
   for (const FrontRow& row : result.front) {
@@ -173,7 +168,7 @@ double largest_height(const TriMesh& crack) {
 class EdgeCrackCube : public testing::TestWithParam<double> {};
 
 TEST_P(EdgeCrackCube, OpeningModeGrowsStraightAheadThroughTheCube) {
-  const RunResult result = run(edge_cube_text({0, 0, 2e6}, GetParam()));
+  const RunResult result = test::run_text(edge_cube_text({0, 0, 2e6}, GetParam()));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   EXPECT_LT(largest_height(result.crack), 0.05);
@@ -184,7 +179,7 @@ TEST_P(EdgeCrackCube, OpeningModeGrowsStraightAheadThroughTheCube) {
 
 // The angle of pure mode II along the middle of the front.
 TEST(EdgeCrack, SlidingModeTurnsAwayFromThePlane) {
-  const RunResult result = run(edge_cube_text({1.2e7, 0, 0}, 0.1));
+  const RunResult result = test::run_text(edge_cube_text({1.2e7, 0, 0}, 0.1));
   int count = 0;
   for (const FrontRow& row : result.front)
     if (row.frame == 1 && std::abs(row.position.y()) < 0.2) {
@@ -197,14 +192,14 @@ TEST(EdgeCrack, SlidingModeTurnsAwayFromThePlane) {
 }
 
 TEST(EdgeCrack, SlidingModeGrowsOn) {
-  const RunResult result = run(edge_cube_text({1.2e7, 0, 0}, 0.1));
+  const RunResult result = test::run_text(edge_cube_text({1.2e7, 0, 0}, 0.1));
   EXPECT_GT(result.largest_growth, 0.3);
 }
 
 // The classic of torn chalk: in the middle of the front K_II vanishes and the crack goes straight on, towards
 // the ends it turns up on one side and down on the other; half a turn about the x axis changes nothing.
 TEST(EdgeCrack, TearingModeTwistsTheSurfaceAndSplitsTheCubeInHalves) {
-  const RunResult result = run(edge_cube_text({0, 3e6, 0}, 0.1));
+  const RunResult result = test::run_text(edge_cube_text({0, 3e6, 0}, 0.1));
   int middle = 0, ends = 0;
   for (const FrontRow& row : result.front) {
     if (row.frame != 1) continue;
@@ -236,7 +231,8 @@ TEST(Compression, DrivesACrackOnlyAsPublishedAndOnlyBeyondTheFactor) {
   const auto grown = [&](double factor, const std::string& run_keys) {
     Mat3 remote = Mat3::Zero();
     remote(2, 2) = -1e6;
-    return run("[body]\nmodel = 'infinite'\n" + test::material_text({.toughness = K / 3.5}) +
+    return test::run_text(
+               "[body]\nmodel = 'infinite'\n" + test::material_text({.toughness = K / 3.5}) +
                fmt::format("compressive_factor = {}\n", factor) + test::resolution_text(0.1, 0.05) +
                "[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.5\ntriangles = "
                "384\n" +
@@ -263,7 +259,7 @@ std::string branch_text(double strength, int cracks, int frames) {
 }
 
 TEST(Branch, StartsOnTheFaceOfACrackWhereItIsTooWeak) {
-  const RunResult result = run(branch_text(3e6, 1, 5));
+  const RunResult result = test::run_text(branch_text(3e6, 1, 5));
   EXPECT_EQ(result.cracks, 2);
   const TriMesh& crack = result.crack;
   const std::vector<int> part = connected_parts(crack);
@@ -292,8 +288,8 @@ TEST(Branch, StartsOnTheFaceOfACrackWhereItIsTooWeak) {
 }
 
 TEST(Branch, OnlyBeyondTheStrengthAndIfCracksMayStart) {
-  EXPECT_EQ(run(branch_text(3.5e6, 1, 2)).cracks, 1);
-  EXPECT_EQ(run(branch_text(3e6, 0, 2)).cracks, 1);
+  EXPECT_EQ(test::run_text(branch_text(3.5e6, 1, 2)).cracks, 1);
+  EXPECT_EQ(test::run_text(branch_text(3e6, 0, 2)).cracks, 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/study/surface_distance.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // The same body under a map of space and units breaks the same way.
@@ -47,9 +48,7 @@ RunResult run(const Map& map, const Vec3& pull) {
       test::region_text("bottom", test::half_space_text(-up, -up.dot(map.shift) + near)) +
       test::boundary_text("top", "traction", traction) +
       test::boundary_text("bottom", "traction", -traction) + "[run]\ninertia_relief = true\n";
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
+  return test::run_text(text);
 }
 
 struct Case {

@@ -10,6 +10,7 @@
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/study/surface_distance.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // Crack surfaces follow the structure of the material.
@@ -33,12 +34,6 @@ std::string layers_text(const Vec3& direction, double wavelength, double amplitu
       test::text(direction), wavelength, amplitude);
 }
 
-RunResult run(const std::string& text) {
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
-}
-
 /// Standard deviation of the height over the best plane [m].
 double roughness(const TriMesh& mesh) {
   double area = 0;
@@ -59,7 +54,7 @@ double roughness(const TriMesh& mesh) {
 }
 
 TEST(Material, AHomogeneousCrackIsSmooth) {
-  const RunResult result = run(cube_text(""));
+  const RunResult result = test::run_text(cube_text(""));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   const double height = roughness(result.crack);
   EXPECT_LT(height, 0.1 * kCrackEdge);
@@ -67,13 +62,14 @@ TEST(Material, AHomogeneousCrackIsSmooth) {
 }
 
 TEST(Material, AFieldWithoutAmplitudeChangesNothing) {
-  EXPECT_EQ(run(cube_text(layers_text({0.3, 0, 1}, 0.2, 0))).document.hash, run(cube_text("")).document.hash);
+  EXPECT_EQ(test::run_text(cube_text(layers_text({0.3, 0, 1}, 0.2, 0))).document.hash,
+            test::run_text(cube_text("")).document.hash);
 }
 
 TEST(Material, RoughnessGrowsWithTheAmplitude) {
-  double before = roughness(run(cube_text("")).crack);
+  double before = roughness(test::run_text(cube_text("")).crack);
   for (double amplitude : {0.1, 0.2, 0.4}) {
-    const RunResult result = run(cube_text(noise_text(0.2, amplitude)));
+    const RunResult result = test::run_text(cube_text(noise_text(0.2, amplitude)));
     EXPECT_EQ(result.document.stop, StopReason::separated);
     EXPECT_EQ(result.fragments.size(), 2u);
     const double height = roughness(result.crack);
@@ -127,7 +123,7 @@ double middle_wavelength(const TriMesh& crack) {
 TEST(Material, TheSpectrumFollowsTheWavelengthOfTheField) {
   double before = 0;
   for (double wavelength : {0.08, 0.16, 0.32}) {
-    const RunResult result = run(cube_text(noise_text(wavelength, 0.2)));
+    const RunResult result = test::run_text(cube_text(noise_text(wavelength, 0.2)));
     EXPECT_EQ(result.document.stop, StopReason::separated);
     const double found = middle_wavelength(result.crack);
     EXPECT_GT(found, 1.2 * before) << wavelength;
@@ -141,7 +137,7 @@ TEST(Material, TheSpectrumFollowsTheWavelengthOfTheField) {
 // Bedding tilted by 15°: the crack leaves the plane that the load asks for and runs along the weak layers.
 TEST(Material, TheCrackRunsAlongWeakLayers) {
   const Vec3 across = Vec3(std::sin(0.26), 0, std::cos(0.26));
-  const RunResult result = run(cube_text(layers_text(across, 0.2, 0.4)));
+  const RunResult result = test::run_text(cube_text(layers_text(across, 0.2, 0.4)));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   ASSERT_EQ(result.fragments.size(), 2u);
   const Layers layers{across, 0.2, 0.4, 0};
@@ -154,7 +150,8 @@ TEST(Material, TheCrackRunsAlongWeakLayers) {
     }
     return sum / area;
   };
-  const double along = mean_toughness(result.crack), straight = mean_toughness(run(cube_text("")).crack);
+  const double along = mean_toughness(result.crack),
+               straight = mean_toughness(test::run_text(cube_text("")).crack);
   EXPECT_NEAR(straight, 1, 0.05);
   EXPECT_LT(along, 0.9);
   RecordProperty("toughness", test::text(along));
@@ -163,7 +160,7 @@ TEST(Material, TheCrackRunsAlongWeakLayers) {
 // Grain boundaries are met more often by the crack than by a plane.
 TEST(Material, TheCrackPrefersGrainBoundaries) {
   const std::string text = "[material.toughness_field]\nkind = 'grains'\nsize = 0.25\nweakening = 0.6\n";
-  const RunResult result = run(cube_text(text));
+  const RunResult result = test::run_text(cube_text(text));
   EXPECT_EQ(result.document.stop, StopReason::separated);
   EXPECT_EQ(result.fragments.size(), 2u);
   const Grains grains{.size = 0.25, .width = 0.05, .weakening = 0.6};
@@ -193,7 +190,7 @@ TEST(Material, ACrackStartsWhereTheBodyIsWeak) {
       test::resolution_text(kCrackEdge, 0.02) +
       test::boundary_text("z+", "traction", {0, 0, 6e7}) +
       test::boundary_text("z-", "traction", {0, 0, -6e7}) + "[run]\nframes = 1\n";
-  const RunResult result = run(text);
+  const RunResult result = test::run_text(text);
   EXPECT_EQ(result.cracks, 1);
   double height = 0;
   for (const Vec3& x : result.crack.positions)
@@ -203,8 +200,8 @@ TEST(Material, ACrackStartsWhereTheBodyIsWeak) {
 
 TEST(Material, TheSameBitsForOneThreadAndForTwo) {
   const std::string text = cube_text(noise_text(0.2, 0.3, 3));
-  const RunResult one = ExecutionContext(1).run([&] { return run(text); });
-  const RunResult two = ExecutionContext(2).run([&] { return run(text); });
+  const RunResult one = ExecutionContext(1).run([&] { return test::run_text(text); });
+  const RunResult two = ExecutionContext(2).run([&] { return test::run_text(text); });
   EXPECT_EQ(one.document.hash, two.document.hash);
 }
 
@@ -232,7 +229,7 @@ RunResult run_mapped(const Mat3& turn, double scale) {
           test::text(up), test::text(Vec3(turn.col(0))), 0.2 * scale) +
       test::boundary_text("top", "traction", 1e7 * up) +
       test::boundary_text("bottom", "traction", -1e7 * up) + "[run]\nmax_cracks = 0\n";
-  RunResult result = run(text);
+  RunResult result = test::run_text(text);
   for (Vec3& x : result.crack.positions)
     x = turn.transpose() * x / scale;
   return result;
@@ -278,7 +275,8 @@ TEST(Material, RefiningTheSurfaceRefinesTheSurfaceOnly) {
   const std::string grains = "[material.toughness_field]\nkind = 'grains'\nsize = 0.2\nweakening = 0.5\n";
   for (const std::string& field : {std::string(), grains, noise_text(0.2, 0.2, 3), noise_text(0.2, 0.3),
                                    layers_text({0.3, 0, 1}, 0.2, 0.3)}) {
-    const RunResult coarse = run(cube_text(field, 0.02)), fine = run(cube_text(field, 0.01));
+    const RunResult coarse = test::run_text(cube_text(field, 0.02)),
+                    fine = test::run_text(cube_text(field, 0.01));
     EXPECT_EQ(coarse.document.stop, StopReason::separated);
     EXPECT_EQ(front_text(coarse), front_text(fine));
     EXPECT_EQ(coarse.fragments.size(), fine.fragments.size());

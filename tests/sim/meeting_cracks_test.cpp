@@ -5,6 +5,7 @@
 #include <string>
 
 #include "conchoid/sim/run.hpp"
+#include "run_text.hpp"
 #include "scenes.hpp"
 
 // Two disc cracks in a pulled cube grow towards each other and become one.
@@ -37,9 +38,7 @@ RunResult pulled_cube(const Second& second) {
       disc_text({0.22, second.y, second.z}, second.normal) +
       test::boundary_text("z+", "traction", {0, 0, 1e7}) +
       test::boundary_text("z-", "traction", {0, 0, -1e7}) + "[run]\nmax_cracks = 0\nframes = 20\n";
-  RunOptions options;
-  options.progress = false;
-  return run_scene(test::scene_from_text(text), options);
+  return test::run_text(text);
 }
 
 class MeetingCracks : public ::testing::TestWithParam<Second> {};

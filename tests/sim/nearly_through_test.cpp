@@ -20,14 +20,15 @@ TEST(NearlyThrough, OnlyShortlyBeforeThePulledCubeParts) {
   std::vector<bool> nearly;
   while (!fracture.stop() && fracture.frame() < 30) {
     fracture.step();
-    nearly.push_back(nearly_through(fracture.crack(), body->surface, 3 * body->crack_edge));
+    nearly.push_back(nearly_through(fracture.crack(), ClosestPointTree(body->surface), 3 * body->crack_edge));
   }
   ASSERT_EQ(fracture.stop(), StopReason::separated);
   ASSERT_GT(nearly.size(), 5u);
   for (std::size_t i = 0; i + 4 < nearly.size(); ++i)
     EXPECT_FALSE(nearly[i]) << "after step " << i;
   EXPECT_TRUE(nearly.back() || nearly[nearly.size() - 2]);
-  EXPECT_FALSE(nearly_through(fracture.crack(), {}, 3 * body->crack_edge)) << "the infinite body";
+  EXPECT_FALSE(nearly_through(fracture.crack(), ClosestPointTree(TriMesh{}), 3 * body->crack_edge))
+      << "the infinite body";
 }
 
 }  // namespace

@@ -31,17 +31,18 @@ std::vector<ClampEdge> clamp_edges(const PreparedBody& body) {
 }
 
 std::optional<std::string> clamp_near(const PreparedBody& body, const Vec3& x) {
-  std::optional<std::string> name;
+  std::optional<TriId> support;
   double least = 1;  // × what counts as near
   for (const ClampEdge& e : clamp_edges(body)) {
     const double distance = (closest_point_on_triangle({e.a, e.b, e.b}, x) - x).norm();
     const double share = distance / std::max(body.crack_edge, (e.b - e.a).norm());
     if (share >= least) continue;
     least = share;
-    const int region = region_of_triangles(body.surface, body.regions)[e.support];
-    name = region < 0 ? std::string() : body.regions[static_cast<std::size_t>(region)].name;
+    support = e.support;
   }
-  return name;
+  if (!support) return std::nullopt;
+  const int region = region_of_triangles(body.surface, body.regions)[*support];
+  return region < 0 ? std::string() : body.regions[static_cast<std::size_t>(region)].name;
 }
 
 std::optional<std::string> clamp_warning(const PreparedBody& body, const Vec3& x) {
@@ -50,12 +51,10 @@ std::optional<std::string> clamp_warning(const PreparedBody& body, const Vec3& x
   const Vec3 at = x + body.origin;
   return fmt::format(
       "the crack at ({:.4g}, {:.4g}, {:.4g}) starts at the edge of the support '{}', where the stress grows "
-      "without "
-      "bound as elements get smaller: where and under which load it starts says nothing about the strength; "
-      "let "
-      "components of the displacement free there, hold the body farther from where it breaks, or keep cracks "
-      "away "
-      "with [[region]] initiation = false",
+      "without bound as elements get smaller: where and under which load it starts says nothing about the "
+      "strength; let components of the displacement free there, hold the body farther from where it breaks, "
+      "or "
+      "keep cracks away with [[region]] initiation = false",
       at[0], at[1], at[2], *region);
 }
 

@@ -111,6 +111,7 @@ struct Fracture::State {
                       FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
 
+  ClosestPointTree surface_tree{body->surface};        // of the boundary elements
   int unresolved_frames = 0;                           // in a row
   std::optional<BodyCut> parted;                       // when it separated
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
@@ -186,7 +187,7 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   unresolved_frames = unresolved() ? unresolved_frames + 1 : 0;
   const double r = body->crack_edge;
   if (!at_end && carried == 0 && !barred() && unresolved_frames < kUnresolvedFrames &&
-      !nearly_through(crack, body->surface, kWidestOverloadedLigament * r))
+      !nearly_through(crack, surface_tree, kWidestOverloadedLigament * r))
     return false;
   const auto breaks = [&](const LastLigament& ligament) {
     if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K

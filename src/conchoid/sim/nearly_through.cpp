@@ -2,9 +2,6 @@
 
 #include <array>
 
-#include "conchoid/mesh/closest_point.hpp"
-#include "conchoid/mesh/surface_parts.hpp"
-
 namespace conchoid {
 namespace {
 
@@ -13,14 +10,15 @@ constexpr double kReach = 0.85;                     // × the same, about a prob
 
 }  // namespace
 
-bool nearly_through(const CrackState& crack, const TriMesh& surface, double width) {
-  if (surface.corners.empty() || crack.points.empty()) return false;
-  const ClosestPointTree walls(join({surface, crack.trimmed}));
+bool nearly_through(const CrackState& crack, const ClosestPointTree& surface, double width) {
+  const ClosestPointTree faces(crack.trimmed);
   const auto near_wall = [&](const FrontPoint& point) {
     for (const double share : kProbes) {
       const double reach = share * width;
       const Vec3 probe = crack.sheet.mesh.positions[point.node] + reach * point.frame.e2;
-      if (walls.closest(probe).squared_distance < kReach * kReach * reach * reach) return true;
+      const double near = kReach * kReach * reach * reach;
+      if (surface.closest(probe).squared_distance < near || faces.closest(probe).squared_distance < near)
+        return true;
     }
     return false;
   };

@@ -110,6 +110,19 @@ Vec3 CellGrid::center(std::size_t cell) const {
   return position({double(i), double(j), double(k)});
 }
 
+void CellGrid::mark_near(const Vec3& place, double reach, std::vector<bool>& near) const {
+  std::array<int, 3> low{}, high{};
+  for (int a = 0; a < 3; ++a) {
+    const int middle = static_cast<int>(std::lround(place[a])), most = static_cast<int>(std::ceil(reach));
+    low[a] = std::max(middle - most, 0);
+    high[a] = std::min(middle + most, count_[a] - 1);
+  }
+  for (int i = low[0]; i <= high[0]; ++i)
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int k = low[2]; k <= high[2]; ++k)
+        if ((Vec3(i, j, k) - place).norm() <= reach) near[cell(i, j, k)] = true;
+}
+
 template <class Found>
 void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;

@@ -41,6 +41,9 @@ class CellGrid {
   Vec3 position(const Vec3& place) const { return origin_ + size_ * (axes_ * place); }
   Vec3 place_of(const Vec3& position) const { return axes_.transpose() * (position - origin_) / size_; }
 
+  /// The cells whose centres lie within `reach` cells of a place counted in cells.
+  void mark_near(const Vec3& place, double reach, std::vector<bool>& near) const;
+
   bool inside(std::size_t cell) const { return inside_[cell] != 0; }
   /// The edge from a cell to the next one along an axis.
   static std::size_t edge(std::size_t cell, int axis) { return 3 * cell + axis; }

@@ -22,25 +22,19 @@ double cell_size(const TriMesh& body, double target_edge) {
 std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
   std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
   const double reach = kLigamentBand * target_edge / grid.size();
-  const int most = static_cast<int>(std::ceil(reach));
   for (const Edge& e : boundary_edges(sheets)) {
     const Vec3 x = grid.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
-    std::array<int, 3> middle{}, low{}, high{};
+    std::array<int, 3> at{};
     bool in_grid = true;
     for (int a = 0; a < 3; ++a) {
-      middle[a] = static_cast<int>(std::lround(x[a]));
-      low[a] = std::max(middle[a] - most, 0);
-      high[a] = std::min(middle[a] + most, grid.count()[a] - 1);
-      in_grid = in_grid && middle[a] >= 0 && middle[a] < grid.count()[a];
+      at[a] = static_cast<int>(std::lround(x[a]));
+      in_grid = in_grid && at[a] >= 0 && at[a] < grid.count()[a];
     }
     if (!in_grid) continue;
-    const std::size_t here = grid.cell(middle[0], middle[1], middle[2]);
+    const std::size_t here = grid.cell(at[0], at[1], at[2]);
     if (!grid.inside(here) || done[here]) continue;
     done[here] = true;
-    for (int i = low[0]; i <= high[0]; ++i)
-      for (int j = low[1]; j <= high[1]; ++j)
-        for (int k = low[2]; k <= high[2]; ++k)
-          if ((Vec3(i, j, k) - x).squaredNorm() <= reach * reach) band[grid.cell(i, j, k)] = true;
+    grid.mark_near(x, reach, band);
   }
   return band;
 }

@@ -45,10 +45,11 @@ class SurfaceMaker {
     spread_outside();
     near_.assign(grid_.cells(), false);
     for (const Vec3& x : ligament.faces)
-      mark_near(x);
+      grid_.mark_near(grid_.place_of(x), overlap_.cells, near_);
     // Wherever the cracks that part the two sides end: there they may not quite reach each other.
     for (const Edge& e : boundary_edges(sheets))
-      mark_near(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
+      grid_.mark_near(grid_.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b])), overlap_.cells,
+                      near_);
   }
 
   TriMesh run() {
@@ -92,20 +93,6 @@ class SurfaceMaker {
     for (int a = 0; a < 3; ++a)
       if (at[a] < 0 || at[a] >= grid_.count()[a]) return false;
     return true;
-  }
-
-  void mark_near(const Vec3& x) {
-    const Vec3 local = grid_.place_of(x);
-    std::array<int, 3> at{};
-    const int reach = static_cast<int>(std::ceil(overlap_.cells));
-    const std::array<int, 3> middle{static_cast<int>(std::lround(local[0])),
-                                    static_cast<int>(std::lround(local[1])),
-                                    static_cast<int>(std::lround(local[2]))};
-    for (at[0] = middle[0] - reach; at[0] <= middle[0] + reach; ++at[0])
-      for (at[1] = middle[1] - reach; at[1] <= middle[1] + reach; ++at[1])
-        for (at[2] = middle[2] - reach; at[2] <= middle[2] + reach; ++at[2])
-          if (in_grid(at) && (Vec3(at[0], at[1], at[2]) - local).norm() <= overlap_.cells)
-            near_[grid_.cell(at[0], at[1], at[2])] = true;
   }
 
   // Marching tetrahedra between the two sides, from the lower to the upper.
