@@ -17,6 +17,10 @@ namespace {
 constexpr std::array<LigamentOverlap, 8> kOverlaps{
     {{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}, {4.2, 0.35}, {4.2, -0.35}, {2.8, 0.15}, {2.8, -0.15}}};
 
+// A piece below this share of what a ligament would part from the body is a chip of the two surfaces that cut it, not
+// the part: the volumes are counted in cells.
+constexpr double kLeastShareOfPart = 0.5;
+
 constexpr double kSlitWidth = 2e-4;  // × the crack surface's edge length
 
 FragmentSettings fragment_settings(const PreparedBody& body, const RunSpec& run) {
@@ -107,18 +111,21 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
     if (!breaks(ligament)) continue;
     std::vector<Fragment> best;
     TriMesh best_surface;
+    bool best_clean = false;
     for (const LigamentOverlap& overlap : kOverlaps) {
       TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
       std::vector<Fragment> parts =
           parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
-      if (parts.size() < 2) continue;
+      if (parts.size() < 2 || parts[1].volume < kLeastShareOfPart * ligament.smaller_part) continue;
       OpenFragments open = open_all(parts, slit_width(body));
-      if (open.clean || best.empty()) {
+      if (best.empty() || open.clean > best_clean ||
+          (open.clean == best_clean && parts.size() < best.size())) {
         best = std::move(parts);
         best_surface = std::move(surface);
+        best_clean = open.clean;
         cut.opened = std::move(open.positions);
       }
-      if (open.clean) break;
+      if (best_clean && best.size() == 2) break;
     }
     if (best.empty()) continue;
     cut.ligament = parting_faces(best, best_surface, all.triangle_count());
