@@ -115,6 +115,10 @@ std::string defect_text(const SurfaceReport& r) {
   return text;
 }
 
+std::string walls_text(const SurfaceReport& r) {
+  return r.coarse_walls ? "\n  thin walls: " + r.coarse_walls->text() : std::string();
+}
+
 std::string plan_text(RepairMethod method, double voxel) {
   switch (method) {
     case RepairMethod::none:
@@ -139,6 +143,9 @@ std::string advice_text(const SurfaceReport& r) {
   if (scale != 1 || r.advice->remesh) text += "\n    [body]";
   if (scale != 1) text += fmt::format("\n    scale = {}", scale);
   if (r.advice->remesh) text += fmt::format("\n    remesh = {}", *r.advice->remesh);
+  if (r.coarse_walls && !r.coarse_walls->affordable())
+    text += fmt::format("  # with {} it would show 90 % of the bending stress, here about {:.0f} %",
+                        r.coarse_walls->wanted_triangles, 100 * r.coarse_walls->shown_by_most());
   text += fmt::format("\n    [resolution]\n    crack = {:.3g}\n    surface = {:.3g}", r.advice->crack * scale,
                       r.advice->surface * scale);
   return text;
@@ -218,6 +225,19 @@ Json report_json(const CheckCommand& command, const SurfaceReport& r) {
   json["bodies"] = r.bodies;
   json["usable"] = r.usable() && r.bodies == 1;
   return json;
+}
+
+void add_walls(Json& json, const SurfaceReport& r) {
+  json["thin_walls"] = nullptr;
+  if (!r.coarse_walls) return;
+  const CoarseWalls& walls = *r.coarse_walls;
+  json["thin_walls"] = {{"share", walls.share},
+                        {"edge", walls.edge},
+                        {"thickness", walls.thickness},
+                        {"shown_bending", walls.shown},
+                        {"wanted_edge", walls.wanted_edge},
+                        {"wanted_triangles", walls.wanted_triangles},
+                        {"text", walls.text()}};
 }
 
 void add_advice(Json& json, const SurfaceReport& r) {
@@ -327,7 +347,7 @@ void check_and_print(const CheckCommand& command, const CommonOptions& common) {
     text += fmt::format("\n  {} nodes welded, at most {:.3g} apart, less than {} of the edges there",
                         weld.nodes, weld.farthest, weld_share);
   if (report.triangles > 0) text += size_text(report);
-  text += defect_text(report);
+  text += defect_text(report) + walls_text(report);
   bool fits_a_scene = report.usable() && report.bodies == 1;
   AttributedMesh bodies = surface;
   if (command.repair) {
@@ -358,6 +378,7 @@ void check_and_print(const CheckCommand& command, const CommonOptions& common) {
       text += "\n" + file.get<std::string>();
     fits_a_scene = true;
   }
+  add_walls(json, report);
   add_advice(json, report);
   print(common.json ? json.dump() : text);
   if (!fits_a_scene) throw ComputationError(unusable_text(command, report));

@@ -28,6 +28,11 @@ class BoxTree {
   template <class Visit>
   void visit_near(const Vec3& x, double bound, const Visit& visit) const;
 
+  /// Calls visit(t) for every triangle that the ray x + s·direction may meet at 0 ≤ s < bound, in no order;
+  /// visit returns the bound from there on.
+  template <class Visit>
+  void visit_along(const Vec3& x, const Vec3& direction, double bound, const Visit& visit) const;
+
  private:
   struct Branch {
     Box box;
@@ -67,6 +72,25 @@ void BoxTree::visit_near(const Vec3& x, double bound, const Visit& visit) const 
     if (far.squared_distance < near.squared_distance) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;
+  }
+}
+
+template <class Visit>
+void BoxTree::visit_along(const Vec3& x, const Vec3& direction, double bound, const Visit& visit) const {
+  if (branches_.empty()) return;
+  std::array<std::size_t, deepest> stack;
+  std::size_t count = 0;
+  stack[count++] = 0;
+  while (count > 0) {
+    const Branch& branch = branches_[stack[--count]];
+    if (!may_meet(branch.box, x, direction, bound)) continue;
+    if (branch.left != 0) {
+      stack[count++] = branch.left;
+      stack[count++] = branch.right;
+      continue;
+    }
+    for (std::size_t i = branch.begin; i < branch.end; ++i)
+      if (may_meet(boxes_[order_[i]], x, direction, bound)) bound = visit(TriId(order_[i]));
   }
 }
 

@@ -9,13 +9,6 @@
 namespace conchoid {
 namespace {
 
-bool holds_point(const RegionRule& rule, const Vec3& x) {
-  return std::all_of(rule.half_spaces.begin(), rule.half_spaces.end(),
-                     [&](const HalfSpace& h) { return h.contains(x); }) &&
-         (!rule.box || squared_distance(*rule.box, x) == 0) && (!rule.ball || rule.ball->distance(x) <= 0) &&
-         (!rule.indenter || rule.indenter->distance(x) <= rule.reach);
-}
-
 bool of_material(const RegionRule& rule, const SurfaceAttributes& attributes, std::size_t t) {
   if (rule.material.empty()) return true;
   return t < attributes.material.size() &&
@@ -30,7 +23,7 @@ std::vector<char> wanted_by(const RegionRule& rule, const TriMesh& mesh,
   for (std::size_t t = 0; t < wanted.size(); ++t) {
     const Triangle x = mesh.triangle(TriId(t));
     if (!of_material(rule, attributes, t) ||
-        !std::all_of(x.begin(), x.end(), [&](const Vec3& corner) { return holds_point(rule, corner); }))
+        !std::all_of(x.begin(), x.end(), [&](const Vec3& corner) { return rule.holds(corner); }))
       continue;
     wanted[t] = !rule.nearest;
     if (!rule.nearest) continue;
@@ -44,6 +37,13 @@ std::vector<char> wanted_by(const RegionRule& rule, const TriMesh& mesh,
 }
 
 }  // namespace
+
+bool RegionRule::holds(const Vec3& x) const {
+  return std::all_of(half_spaces.begin(), half_spaces.end(),
+                     [&](const HalfSpace& h) { return h.contains(x); }) &&
+         (!box || squared_distance(*box, x) == 0) && (!ball || ball->distance(x) <= 0) &&
+         (!indenter || indenter->distance(x) <= reach);
+}
 
 double RoundBody::distance(const Vec3& x) const {
   const Vec3 d = x - center;

@@ -39,6 +39,9 @@ struct RegionRule {
   double reach = 0;                        ///< from the indenter's surface [m]
   std::string material = {};               ///< of the surface's attributes; empty: any
   std::optional<Vec3> nearest = {};        ///< [m]
+
+  /// Whether x lies where the rule asks for, as far as it asks for a place.
+  bool holds(const Vec3& x) const;
 };
 
 /// One region per rule, in their order: a triangle belongs to the first rule that wants it. Triangles that no rule

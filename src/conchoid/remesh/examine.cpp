@@ -114,14 +114,20 @@ void list_the_others(SurfaceReport& report) {
             "flip its triangles", {part.triangles.front()});
 }
 
-std::optional<ResolutionAdvice> advise(const SurfaceReport& report) {
+std::optional<ResolutionAdvice> advise(const TriMesh& mesh, const SurfaceReport& report) {
   if (!(report.volume > 0)) return std::nullopt;
   ResolutionAdvice advice;
-  advice.crack = std::cbrt(report.volume) / 10;
+  const double edge = std::cbrt(report.volume) / 10;
+  advice.crack = edge;
+  double wanted = report.area / (std::sqrt(3.0) / 4 * edge * edge);
+  if (report.usable()) {
+    if (const auto wall = thinnest_wall(mesh, 2 * edge)) advice.crack = std::min(edge, *wall / 2);
+    wanted = triangles_with_edges(mesh, edge);
+  }
   advice.surface = std::clamp(report.mean_edge, advice.crack / 40, advice.crack / 5);
-  const double wanted = report.area / (std::sqrt(3.0) / 4 * advice.crack * advice.crack);
-  if (static_cast<double>(report.triangles) > 1.5 * wanted)
-    advice.remesh = static_cast<std::size_t>(std::clamp(100 * std::round(wanted / 100), 100.0, 10000.0));
+  const double most = report.coarse_walls ? static_cast<double>(most_advised_elements) : 10000.0;
+  if (static_cast<double>(report.triangles) > 1.5 * wanted || report.coarse_walls)
+    advice.remesh = static_cast<std::size_t>(std::clamp(100 * std::round(wanted / 100), 100.0, most));
   return advice;
 }
 
@@ -168,7 +174,8 @@ SurfaceReport examine(const TriMesh& mesh) {
   TidyReport changes;
   const TriMesh tidy = report.usable() ? mesh : tidied(mesh, changes);
   report.volume = enclosed_volume(report.usable() ? mesh : holes_filled(tidy, boundary_loops(tidy)));
-  report.advice = advise(report);
+  if (report.usable()) report.coarse_walls = coarse_walls(mesh);
+  report.advice = advise(mesh, report);
   return report;
 }
 

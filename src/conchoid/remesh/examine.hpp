@@ -9,6 +9,7 @@
 
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/remesh/validate.hpp"
+#include "conchoid/remesh/wall_resolution.hpp"
 
 namespace conchoid {
 
@@ -35,9 +36,9 @@ struct UnitGuess {
 
 /// Settings that would suit a mesh, in the unit of its file.
 struct ResolutionAdvice {
-  double crack = 0;    ///< r̄: a tenth of the cube root of the volume, as a scene without it has
+  double crack = 0;    ///< r̄: a tenth of the cube root of the volume, as a scene without it has, or less: half of the thinnest wall
   double surface = 0;  ///< mean edge of the file, between r̄ / 40 and r̄ / 5
-  std::optional<std::size_t> remesh;  ///< body.remesh that gives boundary elements with edges of about r̄
+  std::optional<std::size_t> remesh;  ///< body.remesh that gives boundary elements with edges of about a tenth of that root, shorter on thin walls
 };
 
 /// Everything `conchoid check` has to say about a surface.
@@ -57,6 +58,7 @@ struct SurfaceReport {
   std::map<DefectKind, std::size_t> defect_counts;  ///< each up to most_counted
   std::vector<MeshDefect> defects;         ///< empty: a scene can use the mesh as it is (find_defects)
   std::optional<ResolutionAdvice> advice;  ///< none where there is no volume
+  std::optional<CoarseWalls> coarse_walls;  ///< of a usable mesh, taken for boundary elements as it is
 
   bool usable() const { return defects.empty(); }
 };

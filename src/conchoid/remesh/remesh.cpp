@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
@@ -42,9 +43,13 @@ class Remesher {
 
   /// Decimates to about `samples` triangles, takes the size field from these and chooses the edge length for
   /// `target` of them.
-  void prepare(std::size_t samples, std::size_t target) {
+  void prepare(std::size_t samples, std::size_t target, const RemeshSettings& settings) {
     decimate(mesh_, features_, samples);
     size_.emplace(mesh_.compact(), edge_);
+    if (auto local = local_edges(*size_, edge_, target, settings)) {
+      size_ = std::move(local->field);
+      edge_ = local->edge;
+    }
     edge_ *= std::sqrt(size_->triangle_count(edge_) / static_cast<double>(target));
   }
 
@@ -352,6 +357,11 @@ double sampled_hausdorff_distance(const TriMesh& a, const TriMesh& b) {
 }
 
 TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* report) {
+  return remesh(detailed, target_triangles, {}, report);
+}
+
+TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettings& settings,
+               RemeshReport* report) {
   if (target_triangles < 20) throw InputError("remesh: ask for at least 20 triangles");
   const auto target = static_cast<std::size_t>(target_triangles);
   const Vec3 center = bounding_box(detailed).center();
@@ -360,8 +370,11 @@ TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* repo
     x -= center;
   const double edge = std::sqrt(4 / std::numbers::sqrt3 * surface_area(original) / target_triangles);
 
+  RemeshSettings about_origin = settings;
+  for (EdgeLimit& limit : about_origin.limits)
+    limit.holds = [&center, holds = limit.holds](const Vec3& x) { return holds(x + center); };
   Remesher remesher(original, edge);
-  remesher.prepare(4 * target, target);
+  remesher.prepare(4 * target, target, about_origin);
   remesh_isotropically(remesher, target);
   remesher.open_small_angles(25 * degree);
   remesher.meet_count(target - target / 12, target + target / 12);

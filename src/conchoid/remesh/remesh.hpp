@@ -1,6 +1,7 @@
 #pragma once
 
 #include "conchoid/mesh/tri_mesh.hpp"
+#include "conchoid/remesh/local_edges.hpp"
 
 namespace conchoid {
 
@@ -23,6 +24,9 @@ struct RemeshReport {
 /// Throws InputError for fewer than 20 triangles asked for and ComputationError if the target cannot be met
 /// within 10 %.
 TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* report = nullptr);
+/// The same with edges that follow the thickness of walls, or limits. Without any of these to obey: the same bits.
+TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettings& settings,
+               RemeshReport* report = nullptr);
 
 /// Largest distance of nodes, edge middles and centroids of each mesh from the other [m].
 double sampled_hausdorff_distance(const TriMesh& a, const TriMesh& b);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
 #include "conchoid/core/interrupt.hpp"
 
 namespace conchoid {
@@ -54,14 +56,23 @@ SizeField::SizeField(const TriMesh& samples, double edge)
     const double radius = touching_ball(surface_, samples.positions[n], -normals[n], largest);
     size_[n] = std::clamp(radius / largest, smallest_size, 1.0);
   }
+  limit_growth(edge);
+}
+
+SizeField::SizeField(const SizeField& field, double edge, IdVector<NodeId, double> values)
+    : samples_(field.samples_), surface_(field.surface_), size_(std::move(values)) {
+  limit_growth(edge);
+}
+
+void SizeField::limit_growth(double edge) {
   // Sizes grow no faster than `steepest_growth`: relaxed along the edges until nothing changes.
   bool changed = true;
   for (int pass = 0; pass < 100 && changed; ++pass) {
     changed = false;
-    for (const auto& c : samples.corners)
+    for (const auto& c : samples_.corners)
       for (std::size_t k = 0; k < 3; ++k) {
         const NodeId a = c[k], b = c[(k + 1) % 3];
-        const double step = steepest_growth * (samples.positions[a] - samples.positions[b]).norm() / edge;
+        const double step = steepest_growth * (samples_.positions[a] - samples_.positions[b]).norm() / edge;
         if (size_[a] > size_[b] + step) {
           size_[a] = size_[b] + step;
           changed = true;

@@ -15,11 +15,19 @@ class SizeField {
   /// surface.
   SizeField(const TriMesh& samples, double edge);
 
+  /// The same with other values at the samples' nodes: they grow no faster than 0.4 of an edge per edge.
+  SizeField(const SizeField& field, double edge, IdVector<NodeId, double> values);
+
+  const TriMesh& samples() const { return samples_; }
+  /// At the nodes of the samples.
+  const IdVector<NodeId, double>& values() const { return size_; }
   double operator()(const Vec3& x) const;
   /// Number of triangles that the whole surface takes if edges are `edge` times the field.
   double triangle_count(double edge) const;
 
  private:
+  void limit_growth(double edge);
+
   TriMesh samples_;
   ClosestPointTree surface_;
   IdVector<NodeId, double> size_;

@@ -9,6 +9,7 @@
 #include "conchoid/core/byte_cache.hpp"
 #include "conchoid/mesh/regions.hpp"
 #include "conchoid/mesh/surface_attributes.hpp"
+#include "conchoid/remesh/local_edges.hpp"
 #include "conchoid/surface/fragments.hpp"
 
 namespace conchoid {
@@ -41,6 +42,7 @@ struct BodySettings {
   double scale = 1;                                  ///< factor on all coordinates
   bool guess_unit = false;                           ///< warn of a file that is hardly in metres
   std::shared_ptr<const ByteCache> cache = nullptr;  ///< of remeshed surfaces
+  RemeshSettings elements = {};  ///< where remeshing makes them short, at the final size
 };
 
 /// Reads a surface; loose seams are welded (remesh/weld.hpp), with a warning. Throws InputError for a mesh that bounds no body, with its defects.

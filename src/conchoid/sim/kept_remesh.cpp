@@ -35,14 +35,16 @@ TriMesh mesh_of(const std::string& bytes) {
 
 }  // namespace
 
-TriMesh kept_remesh(const TriMesh& surface, int triangles, const ByteCache* cache) {
-  if (!cache) return remesh(surface, triangles);
+TriMesh kept_remesh(const TriMesh& surface, int triangles, const RemeshSettings& settings,
+                    const ByteCache* cache) {
+  if (!cache || !settings.limits.empty()) return remesh(surface, triangles, settings);
   ByteWriter all;
   put(all, surface);
   all.put(triangles);
+  all.put(settings.follow_thickness);
   const std::string name = cache_name("remesh", all.bytes());
   if (const std::optional<std::string> kept = cache->recall(name)) return mesh_of(*kept);
-  TriMesh out = remesh(surface, triangles);
+  TriMesh out = remesh(surface, triangles, settings);
   ByteWriter bytes;
   put(bytes, out);
   cache->keep(name, bytes.bytes());

@@ -93,7 +93,13 @@ SurfaceAttributes element_materials(const Body& body) {
 }  // namespace
 
 Body scene_body(const Scene& scene) {
-  const BodySettings settings{scene.body.remesh, scene.body.scale, !scene.body.scale_given, scene.run.cache};
+  BodySettings settings{
+      scene.body.remesh, scene.body.scale, !scene.body.scale_given, scene.run.cache, {}};
+  settings.elements.follow_thickness = scene.body.follow_thickness;
+  for (const SceneRegion& region : scene.regions)
+    if (region.edge)
+      settings.elements.limits.push_back(
+          {[&rule = region.rule](const Vec3& x) { return rule.holds(x); }, *region.edge});
   return scene.body.model.empty() ? body_from_file(scene.body.mesh, settings)
                                   : body_from_model(scene.body.model, settings);
 }

@@ -56,7 +56,7 @@ void read_indenter(const TomlTable& table, RegionRule& rule) {
 
 SceneRegion read_region(const TomlTable& table) {
   table.require_known_keys();
-  SceneRegion region{.rule = {}, .where = table.where()};
+  SceneRegion region{.rule = {}, .edge = {}, .where = table.where()};
   RegionRule& rule = region.rule;
   table.require("name", rule.name);
   const std::vector<std::string_view> choices{"half_spaces", "box",      "sphere",
@@ -74,6 +74,10 @@ SceneRegion read_region(const TomlTable& table) {
     table.read("nearest", *rule.nearest);
   }
   table.read("initiation", region.initiation);
+  if (table.has("edge")) {
+    region.edge.emplace();
+    table.read("edge", *region.edge);
+  }
   return region;
 }
 
@@ -105,6 +109,10 @@ void read_regions(const TomlTable& file, Scene& scene) {
       if (other.rule.name == region.rule.name)
         table.fail("name", fmt::format("the region \"{}\" is already defined at {}; rename one of them",
                                        region.rule.name, other.where));
+    if (region.edge && !scene.body.remesh)
+      table.fail("edge", "region.edge goes with body.remesh, which makes the boundary elements; add that");
+    if (region.edge && (region.rule.nearest || !region.rule.material.empty()))
+      table.fail("edge", "region.edge needs a place: half_spaces, box, sphere or indenter alone");
     if (!region.initiation) scene.quiet_regions.push_back(region.rule.name);
     scene.regions.push_back(std::move(region));
   }

@@ -38,9 +38,10 @@ BodySpec read_body(const TomlTable& file, const fs::path& folder) {
   else
     body.mesh = existing_file(*table, "mesh", folder);
   body.remesh = optional_value<int>(*table, "remesh");
+  table->read("follow_thickness", body.follow_thickness);
   table->read("scale", body.scale);
   body.scale_given = table->has("scale");
-  for (const char* key : {"remesh", "scale"})
+  for (const char* key : {"remesh", "follow_thickness", "scale"})
     if (body.infinite() && table->has(key))
       table->fail(
           key,

@@ -26,6 +26,7 @@ struct BodySpec {
   std::string model;           ///< built-in model; empty: `mesh` is given
   std::filesystem::path mesh;  ///< absolute, or relative to the working folder; empty: `model` is given
   std::optional<int> remesh;   ///< wanted number of triangles
+  bool follow_thickness = true;  ///< when remeshed: shorter edges on thin walls
   double scale = 1;  ///< factor on the coordinates of the body (and of the crack its model comes with)
   bool scale_given = false;  ///< none: a mesh that is hardly in metres is warned of
   std::string where;
@@ -54,7 +55,8 @@ struct ResolutionSpec {
 
 struct SceneRegion {
   RegionRule rule;
-  bool initiation = true;  ///< whether cracks may start there
+  bool initiation = true;      ///< whether cracks may start there
+  std::optional<double> edge;  ///< longest of the boundary elements there, when the body is remeshed [m]
   std::string where;
 };
 

@@ -71,6 +71,9 @@ const std::vector<Setting>& settings() {
       {"body", "mesh", file, "", "", "closed surface: .ply, .obj, .stl, .off or .glb, coordinates in m"},
       {"body", "remesh", integer, "triangles", "",
        "BEM triangles after remeshing; without it the mesh is used as it is", between(20, 200000)},
+      {"body", "follow_thickness", boolean, "", "true",
+       "with remesh: shorter edges on walls thinner than the triangles would be, so that these show the bending stress, as "
+       "far as the number lasts; no effect where walls are stout"},
       {"body", "scale", number, "", "1.0",
        "factor on the body's coordinates; everything else in the scene stays as written", above(0)},
 
@@ -230,6 +233,8 @@ const std::vector<Setting>& settings() {
        "the one triangle that is nearest to this point, of those that fulfil the rest",
        {},
        3},
+      {"region", "edge", number, "m", "",
+       "with body.remesh: longest edge of the boundary elements there, whichever region has them", above(0)},
       {"region", "initiation", boolean, "", "true", "false: no crack starts there"},
 
       {"boundary", "region", text, "", "", "name of the region; required, at most one condition per region"},

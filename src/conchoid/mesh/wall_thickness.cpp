@@ -1,0 +1,80 @@
+#include "conchoid/mesh/wall_thickness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "conchoid/core/parallel.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t rays = 7, grain = 256;
+constexpr double tilt = 20 * std::numbers::pi / 180;
+constexpr double least_cosine = 0.5;  // between a ray and the normal of the face that it leaves through
+constexpr double on_edge = 1e-9;      // × area: rays through an edge belong to both of its triangles
+constexpr double on_surface = 1e-9;   // × reach: what is so near is the point's own face
+
+/// Distance along the ray; +∞ if it does not leave through the triangle.
+double exit(const Triangle& t, const Vec3& x, const Vec3& direction) {
+  const Vec3 a = t[1] - t[0], b = t[2] - t[0], from = x - t[0];
+  const Vec3 area = cross(a, b);
+  const double along = direction.dot(area), size = area.norm();
+  if (!(along > least_cosine * size)) return infinite;
+  const Vec3 side = cross(direction, from);
+  const double u = side.dot(b) / along, v = -side.dot(a) / along;
+  if (u < -on_edge || v < -on_edge || u + v > 1 + on_edge) return infinite;
+  return -from.dot(area) / along;
+}
+
+}  // namespace
+
+WallProbe::WallProbe(const TriMesh& body) : body_(body), tree_(body) {}
+
+double WallProbe::depth(const Vec3& x, const Vec3& direction, double reach) const {
+  double nearest = infinite;
+  tree_.visit_along(x, direction, reach, [&](TriId t) {
+    const double s = exit(body_.triangle(t), x, direction);
+    if (s > on_surface * reach && s < nearest) nearest = s;
+    return std::min(nearest, reach);
+  });
+  return nearest;
+}
+
+double WallProbe::thickness(const Vec3& x, const Vec3& normal, double reach) const {
+  const Vec3 inward = -normal;
+  Vec3::Index least;
+  normal.cwiseAbs().minCoeff(&least);
+  const Vec3 across = cross(normal, Vec3::Unit(least)).normalized(), third = cross(normal, across);
+  std::array<double, rays> depths;
+  depths[0] = depth(x, inward, reach);
+  for (std::size_t i = 1; i < rays; ++i) {
+    const double turn = static_cast<double>(i) * 2 * std::numbers::pi / (rays - 1);
+    const Vec3 direction = std::cos(tilt) * inward +
+                           std::sin(tilt) * (std::cos(turn) * across + std::sin(turn) * third);
+    depths[i] = std::cos(tilt) * depth(x, direction, reach / std::cos(tilt));
+  }
+  std::nth_element(depths.begin(), depths.begin() + rays / 2, depths.end());
+  return depths[rays / 2] <= reach ? depths[rays / 2] : infinite;
+}
+
+IdVector<TriId, double> WallProbe::thickness(const IdVector<TriId, double>& reach) const {
+  IdVector<TriId, double> out(body_.triangle_count(), infinite);
+  parallel_for(body_.triangle_count(), grain, [&](std::size_t begin, std::size_t end) {
+    for (TriId t(begin); t.index() < end; ++t.value) {
+      if (!(reach[t] > 0)) continue;
+      const Vec3 normal = unit_normal(body_, t);
+      if (normal.squaredNorm() > 0) out[t] = thickness(centroid(body_, t), normal, reach[t]);
+    }
+  });
+  return out;
+}
+
+double mean_square_edge(const Triangle& t) {
+  return std::sqrt(((t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm()) / 3);
+}
+
+}  // namespace conchoid
