@@ -21,6 +21,7 @@ std::string stress_json(const StressReport& report) {
         {{"centroid", to_json(t.centroid)}, {"principal", to_json(t.principal)}, {"region", t.region}});
   return ordered_json{{"max_principal", number(report.max_principal)},
                       {"triangles", std::move(triangles)},
+                      {"warnings", report.warnings},
                       {"seconds", report.seconds}}
       .dump();
 }

@@ -18,6 +18,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double least_share = 0.01;       // of the surface
 constexpr double longest_for_walls = 2;    // × the mean edge: of what is stout
 constexpr double longest_for_limits = 20;  // × the mean edge: of what has no limit
+constexpr double aimed = 0.85;  // × triangles: edges come out a little longer than asked for, and grow by steps
 constexpr int halvings = 40;
 
 /// The same surface with edges of at most `longest`: nodes enough to hold a field.
@@ -81,8 +82,8 @@ double where_count_is(const Count& count, double target, double low, double high
 std::optional<LocalEdges> local_edges(const SizeField& plain, double edge, std::size_t target,
                                       const RemeshSettings& settings) {
   if (!settings.any()) return std::nullopt;
-  const auto wanted = static_cast<double>(target);
-  const double mean = edge * std::sqrt(plain.triangle_count(edge) / wanted);
+  const double wanted = aimed * static_cast<double>(target);
+  const double mean = edge * std::sqrt(plain.triangle_count(edge) / static_cast<double>(target));
   const SizeField field(divided(plain.samples(), edge), edge);
   const TriMesh& mesh = field.samples();
   IdVector<NodeId, double> plain_edges(mesh.node_count());
@@ -115,7 +116,7 @@ std::optional<LocalEdges> local_edges(const SizeField& plain, double edge, std::
     relaxed = infinite;
     if (const double least = count(longest_for_limits * mean, infinite); least > wanted)
       throw InputError("remesh: the edges that regions ask for take about " +
-                       std::to_string(std::lround(least)) + " triangles, more than the " +
+                       std::to_string(std::lround(least / aimed)) + " triangles, more than the " +
                        std::to_string(target) + " asked for; raise body.remesh, or region.edge");
     longest = where_count_is([&](double x) { return count(x, infinite); }, wanted, longest, longest_for_limits * mean);
   }

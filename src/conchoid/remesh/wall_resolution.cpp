@@ -16,7 +16,7 @@ namespace {
 constexpr double locking = 0.08, unpaired_locking = 0.006;  // of (h/t)², (h/t)⁴
 constexpr double opposite = 0.2;         // × h: nodes so near lie opposite each other
 constexpr std::size_t most_samples = 50000;  // triangles of a fine mesh that are measured
-constexpr double telling_share = 0.03;  // of the surface
+constexpr double telling_share = 0.05;  // of the surface
 constexpr double triangles_margin = 1.1;  // for sizes that grow from thin to stout, and for triangles that are not equilateral
 
 /// h/t that shows least_shown.
@@ -129,7 +129,8 @@ std::string CoarseWalls::text() const {
     out << "for " << percent(least_shown) << " % it takes edges of at most " << wanted_edge << " m, all over about "
         << wanted_triangles << " triangles and " << std::lround(bytes() / 1e9)
         << " GB of memory; body.remesh = " << most_advised_elements << " would show about "
-        << percent(shown_by_most()) << " %";
+        << percent(shown_by_most())
+        << " %. Or ask for short edges only where it breaks: a [[region]] with edge = " << wanted_edge;
   return out.str();
 }
 

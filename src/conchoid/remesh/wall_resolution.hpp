@@ -16,7 +16,7 @@ namespace conchoid {
 double shown_bending(double edge_over_thickness, bool paired);
 
 /// × thickness: edges that show nine tenths of the bending stress, with a margin for elements that differ.
-inline constexpr double wall_edge_share = 1.05;
+inline constexpr double wall_edge_share = 1;
 /// Less than this is worth a warning.
 inline constexpr double least_shown = 0.9;
 /// Boundary elements that are advised at most: the dense solver takes 37 n² bytes, here 10 GB.
@@ -39,11 +39,11 @@ struct CoarseWalls {
   std::string text() const;
 };
 
-/// None where less than 3 % of the surface would show less than least_shown: slivers at an edge are no walls.
+/// None where less than 5 % of the surface would show less than least_shown: slivers at an edge are no walls.
 /// @param elements  closed, oriented outward
 std::optional<CoarseWalls> coarse_walls(const TriMesh& elements);
 
-/// The thickness of which so much of the surface, 3 %, has less [m]; none if that is more than `reach`.
+/// The thickness of which so much of the surface, 5 %, has less [m]; none if that is more than `reach`.
 std::optional<double> thinnest_wall(const TriMesh& body, double reach);
 
 /// Triangles of a body whose boundary elements have edges of `edge`, shorter on thin walls.

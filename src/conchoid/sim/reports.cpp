@@ -7,6 +7,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/sim/opening_source.hpp"
+#include "conchoid/sim/resolution_warnings.hpp"
 
 namespace conchoid {
 namespace {
@@ -29,6 +30,11 @@ void solve(BemOpening& bem, const CrackState& crack) {
     warning(contact_warning(contact));
 }
 
+void warn_of(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts)
+    warning(text);
+}
+
 double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening) {
   double volume = 0;
   for (std::size_t t = 0; t < crack.triangle_count(); ++t)
@@ -47,8 +53,10 @@ SifReport compute_sifs(const Scene& scene) {
   const SifSettings sif = sif_settings(scene.run);
   BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
   const CrackState crack = initial_crack(body);
-  solve(bem, crack);
   SifReport report;
+  report.warnings = resolution_warnings(body, crack, scene.run.max_cracks > 0);
+  warn_of(report.warnings);
+  solve(bem, crack);
   for (const Front& front : crack.fronts) {
     const auto K =
         stress_intensities(crack.trimmed, front, bem.body().opening(), scene.material.elastic(), sif);
@@ -73,6 +81,8 @@ StressReport compute_stress(const Scene& scene) {
   solve(bem, initial_crack(body));
   const IdVector<TriId, int> region = region_of_triangles(body.surface, body.regions);
   StressReport report;
+  report.warnings = element_warnings(body);
+  warn_of(report.warnings);
   const std::vector<Mat3> stress = bem.body().surface_stress();
   for (std::size_t t = 0; t < stress.size(); ++t) {
     const Vec3 principal = principal_stress(stress[t]).value;

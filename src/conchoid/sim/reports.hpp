@@ -23,6 +23,7 @@ struct SifReport {
   std::size_t triangles = 0;  ///< of the cracks inside the body
   double opened_volume = 0;   ///< ∫ n·Δu over the cracks [m³]
   double seconds = 0;
+  std::vector<std::string> warnings;  ///< of elements too coarse (resolution_warnings.hpp)
 };
 SifReport compute_sifs(const Scene& scene);
 
@@ -36,6 +37,7 @@ struct StressReport {
   double max_principal = 0;
   std::vector<SurfaceTriangle> triangles;
   double seconds = 0;
+  std::vector<std::string> warnings;
 };
 /// Throws InputError for the infinite body, which has no surface.
 StressReport compute_stress(const Scene& scene);

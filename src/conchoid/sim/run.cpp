@@ -14,6 +14,7 @@
 #include "conchoid/sim/load_report.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/recorders.hpp"
+#include "conchoid/sim/resolution_warnings.hpp"
 #include "conchoid/sim/run_identity.hpp"
 
 namespace conchoid {
@@ -176,6 +177,7 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   RunDocument& doc = result.document = describe(scene, *body, options);
   doc.warnings = said;
   Breakup breakup(scene, body, breakup_settings(scene, options, method));
+  add_warnings(resolution_warnings(*body, breakup.fracture().crack(), scene.run.max_cracks > 0), doc);
   Places places = open_places(breakup.fracture(), scene, options);
   std::optional<FrameWriter> frames;
   if (places.checkpoint) {
