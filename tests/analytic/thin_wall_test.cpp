@@ -23,7 +23,8 @@ std::string cantilever_text(const std::string& file, const std::string& body_key
 }
 
 TriMesh plate(double thickness) {
-  return box_mesh({kLength, kWidth, thickness}, 20, 6, std::max(1, static_cast<int>(std::lround(thickness / 0.05))));
+  return box_mesh({kLength, kWidth, thickness}, 20, 6,
+                  std::max(1, static_cast<int>(std::lround(thickness / 0.05))));
 }
 
 /// σ1 on the stretched side over that of beam theory, between two places.
@@ -63,8 +64,9 @@ TEST_P(ThinWall, IsWarnedOfWhereMoreThanATenthIsMissingAndTheShareIsSaid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cantilever, ThinWall,
-                         testing::Values(Cantilever{0.1, 0.98}, Cantilever{0.05, 0.905}, Cantilever{0.02, 0.60},
-                                         Cantilever{0.01, 0.28}, Cantilever{0.006, 0.135}));
+                         testing::Values(Cantilever{0.1, 0.98}, Cantilever{0.05, 0.905},
+                                         Cantilever{0.02, 0.60}, Cantilever{0.01, 0.28},
+                                         Cantilever{0.006, 0.135}));
 
 TEST(ThinWall, AdvisedElementsShowNineTenths) {
   const test::TemporaryFolder folder;
@@ -72,9 +74,9 @@ TEST(ThinWall, AdvisedElementsShowNineTenths) {
   const auto walls = coarse_walls(plate(t));
   ASSERT_TRUE(walls && walls->affordable());
   EXPECT_NE(walls->text().find(fmt::format("body.remesh = {}", walls->wanted_triangles)), std::string::npos);
-  const StressReport report = compute_stress(test::scene_from_text(
-      cantilever_text(test::write_mesh_in(folder, "plate.obj", plate(t)),
-                      fmt::format("remesh = {}\n", walls->wanted_triangles))));
+  const StressReport report = compute_stress(
+      test::scene_from_text(cantilever_text(test::write_mesh_in(folder, "plate.obj", plate(t)),
+                                            fmt::format("remesh = {}\n", walls->wanted_triangles))));
   EXPECT_TRUE(report.warnings.empty());
   const double found = shown(report, t, -0.25, 0.25);
   RecordProperty("shown", test::text(found));

@@ -48,7 +48,8 @@ TEST(WallThickness, ANeedleInTheWayOfOneRayDoesNotCount) {
   for (const Vec3& x : needle.positions)
     body.positions.push_back(x + Vec3(0.1, 0.1, 0.3));
   for (const auto& c : needle.corners)
-    body.corners.push_back({NodeId(c[0].index() + before), NodeId(c[2].index() + before), NodeId(c[1].index() + before)});
+    body.corners.push_back(
+        {NodeId(c[0].index() + before), NodeId(c[2].index() + before), NodeId(c[1].index() + before)});
   EXPECT_NEAR(thickness_below(body, {0.1, 0.1, 0.5}, Vec3::UnitZ(), 3), 1, 1e-12);
 }
 

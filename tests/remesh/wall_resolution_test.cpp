@@ -54,7 +54,8 @@ TEST(WallResolution, AdviceOfCheckFollowsTheThinnestWallThatMatters) {
 
 /// A block with a fin on top, as one outline turned about z: a thick disc with a thin brim.
 TriMesh brim() {
-  return shapes::turned({{0.5, -0.3}, {0.5, -0.04}, {1, -0.04}, {1, 0.04}, {0.5, 0.04}, {0.5, 0.3}}, 48, false);
+  return shapes::turned({{0.5, -0.3}, {0.5, -0.04}, {1, -0.04}, {1, 0.04}, {0.5, 0.04}, {0.5, 0.3}}, 48,
+                        false);
 }
 
 double mean_edge(const TriMesh& mesh, bool thin) {
@@ -95,7 +96,8 @@ TEST(FollowThickness, AdvisedTrianglesSuffice) {
 TEST(FollowThickness, StoutBodiesComeOutTheSameToTheBit) {
   for (const char* model : {"cube", "cylinder", "bar"}) {
     const TriMesh body = built_in_model(model).mesh;
-    const TriMesh plain = remesh(body, 600), followed = remesh(body, 600, {.follow_thickness = true, .limits = {}});
+    const TriMesh plain = remesh(body, 600),
+                  followed = remesh(body, 600, {.follow_thickness = true, .limits = {}});
     EXPECT_EQ(plain.positions, followed.positions) << model;
     EXPECT_EQ(plain.corners, followed.corners) << model;
   }
@@ -116,7 +118,9 @@ TEST(FollowThickness, LimitsAreKeptWhateverItCostsElsewhere) {
     }
   ASSERT_GT(count, 100);
   EXPECT_LT(sum / count, 1.15 * 0.021);
-  EXPECT_NE(test::refusal([&] { remesh(moved, 500, {.follow_thickness = true, .limits = {limit}}); }).find("region.edge"),
+  EXPECT_NE(test::refusal([&] {
+              remesh(moved, 500, {.follow_thickness = true, .limits = {limit}});
+            }).find("region.edge"),
             std::string::npos);
 }
 

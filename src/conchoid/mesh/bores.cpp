@@ -13,8 +13,8 @@ namespace {
 constexpr double least_turn = 0.05;   // rad between the normals of two triangles: less is flat
 constexpr double largest_turn = 1.1;  // rad: more is an edge
 constexpr std::size_t fewest = 6;
-constexpr double balance = 0.1;       // × area: sum of the area vectors of what closes around a middle
-constexpr double pointing_in = 0.9;   // of the area
+constexpr double balance = 0.1;      // × area: sum of the area vectors of what closes around a middle
+constexpr double pointing_in = 0.9;  // of the area
 
 /// Angle between the normals of two triangles [rad], above 0 where the surface bends inward.
 double inward_turn(const TriMesh& mesh, TriId s, TriId t) {

@@ -53,8 +53,8 @@ double WallProbe::thickness(const Vec3& x, const Vec3& normal, double reach) con
   depths[0] = depth(x, inward, reach);
   for (std::size_t i = 1; i < rays; ++i) {
     const double turn = static_cast<double>(i) * 2 * std::numbers::pi / (rays - 1);
-    const Vec3 direction = std::cos(tilt) * inward +
-                           std::sin(tilt) * (std::cos(turn) * across + std::sin(turn) * third);
+    const Vec3 direction =
+        std::cos(tilt) * inward + std::sin(tilt) * (std::cos(turn) * across + std::sin(turn) * third);
     depths[i] = std::cos(tilt) * depth(x, direction, reach / std::cos(tilt));
   }
   std::nth_element(depths.begin(), depths.begin() + rays / 2, depths.end());
@@ -74,7 +74,8 @@ IdVector<TriId, double> WallProbe::thickness(const IdVector<TriId, double>& reac
 }
 
 double mean_square_edge(const Triangle& t) {
-  return std::sqrt(((t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm()) / 3);
+  return std::sqrt(((t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm()) /
+                   3);
 }
 
 }  // namespace conchoid

@@ -36,9 +36,11 @@ struct UnitGuess {
 
 /// Settings that would suit a mesh, in the unit of its file.
 struct ResolutionAdvice {
-  double crack = 0;    ///< r̄: a tenth of the cube root of the volume, as a scene without it has, or less: half of the thinnest wall
+  double crack =
+      0;  ///< r̄: a tenth of the cube root of the volume, as a scene without it has, or less: half of the thinnest wall
   double surface = 0;  ///< mean edge of the file, between r̄ / 40 and r̄ / 5
-  std::optional<std::size_t> remesh;  ///< body.remesh that gives boundary elements with edges of about a tenth of that root, shorter on thin walls
+  std::optional<std::size_t>
+      remesh;  ///< body.remesh that gives boundary elements with edges of about a tenth of that root, shorter on thin walls
 };
 
 /// Everything `conchoid check` has to say about a surface.
@@ -56,8 +58,8 @@ struct SurfaceReport {
   std::vector<SurfacePart> parts;
   std::size_t bodies = 0;  ///< parts that bound a volume from outside; a scene takes one
   std::map<DefectKind, std::size_t> defect_counts;  ///< each up to most_counted
-  std::vector<MeshDefect> defects;         ///< empty: a scene can use the mesh as it is (find_defects)
-  std::optional<ResolutionAdvice> advice;  ///< none where there is no volume
+  std::vector<MeshDefect> defects;          ///< empty: a scene can use the mesh as it is (find_defects)
+  std::optional<ResolutionAdvice> advice;   ///< none where there is no volume
   std::optional<CoarseWalls> coarse_walls;  ///< of a usable mesh, taken for boundary elements as it is
 
   bool usable() const { return defects.empty(); }

@@ -18,7 +18,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double least_share = 0.01;       // of the surface
 constexpr double longest_for_walls = 2;    // × the mean edge: of what is stout
 constexpr double longest_for_limits = 20;  // × the mean edge: of what has no limit
-constexpr double aimed = 0.85;  // × triangles: edges come out a little longer than asked for, and grow by steps
+constexpr double aimed =
+    0.85;  // × triangles: edges come out a little longer than asked for, and grow by steps
 constexpr int halvings = 40;
 
 /// The same surface with edges of at most `longest`: nodes enough to hold a field.
@@ -118,7 +119,8 @@ std::optional<LocalEdges> local_edges(const SizeField& plain, double edge, std::
       throw InputError("remesh: the edges that regions ask for take about " +
                        std::to_string(std::lround(least / aimed)) + " triangles, more than the " +
                        std::to_string(target) + " asked for; raise body.remesh, or region.edge");
-    longest = where_count_is([&](double x) { return count(x, infinite); }, wanted, longest, longest_for_limits * mean);
+    longest = where_count_is([&](double x) { return count(x, infinite); }, wanted, longest,
+                             longest_for_limits * mean);
   }
   return LocalEdges{field_of(longest, relaxed), longest};
 }

@@ -14,10 +14,11 @@ namespace conchoid {
 namespace {
 
 constexpr double locking = 0.08, unpaired_locking = 0.006;  // of (h/t)², (h/t)⁴
-constexpr double opposite = 0.2;         // × h: nodes so near lie opposite each other
-constexpr std::size_t most_samples = 50000;  // triangles of a fine mesh that are measured
-constexpr double telling_share = 0.05;  // of the surface
-constexpr double triangles_margin = 1.1;  // for sizes that grow from thin to stout, and for triangles that are not equilateral
+constexpr double opposite = 0.2;                            // × h: nodes so near lie opposite each other
+constexpr std::size_t most_samples = 50000;                 // triangles of a fine mesh that are measured
+constexpr double telling_share = 0.05;                      // of the surface
+constexpr double triangles_margin =
+    1.1;  // for sizes that grow from thin to stout, and for triangles that are not equilateral
 
 /// h/t that shows least_shown.
 double largest_edge_share() {
@@ -72,8 +73,8 @@ struct WallSamples {
 };
 
 /// Whether most of the corners of some triangles have a node opposite.
-bool are_paired(const TriMesh& mesh, const std::vector<Part>& triangles, const IdVector<TriId, double>& thickness,
-                const IdVector<TriId, double>& edges) {
+bool are_paired(const TriMesh& mesh, const std::vector<Part>& triangles,
+                const IdVector<TriId, double>& thickness, const IdVector<TriId, double>& edges) {
   const ClosestPointTree tree(mesh);
   std::size_t paired = 0;
   for (const Part& part : triangles) {
@@ -111,9 +112,8 @@ double shown_bending(double edge_over_thickness, bool paired) {
 }
 
 double CoarseWalls::shown_by_most() const {
-  return shown_bending(wall_edge_share *
-                           std::sqrt(static_cast<double>(wanted_triangles) / most_advised_elements),
-                       false);
+  return shown_bending(
+      wall_edge_share * std::sqrt(static_cast<double>(wanted_triangles) / most_advised_elements), false);
 }
 
 std::string CoarseWalls::text() const {
@@ -121,13 +121,14 @@ std::string CoarseWalls::text() const {
   out.precision(2);
   const auto percent = [](double x) { return std::lround(100 * x); };
   out << "elements of " << edge << " m on a wall of " << thickness << " m (" << percent(share)
-      << " % of the surface) show about " << percent(shown) << " % of the bending stress, and cracks in it open less than they should; ";
+      << " % of the surface) show about " << percent(shown)
+      << " % of the bending stress, and cracks in it open less than they should; ";
   if (affordable())
     out << "body.remesh = " << wanted_triangles << ", or a mesh with edges of at most " << wanted_edge
         << " m there, would show " << percent(least_shown) << " %";
   else
-    out << "for " << percent(least_shown) << " % it takes edges of at most " << wanted_edge << " m, all over about "
-        << wanted_triangles << " triangles and " << std::lround(bytes() / 1e9)
+    out << "for " << percent(least_shown) << " % it takes edges of at most " << wanted_edge
+        << " m, all over about " << wanted_triangles << " triangles and " << std::lround(bytes() / 1e9)
         << " GB of memory; body.remesh = " << most_advised_elements << " would show about "
         << percent(shown_by_most())
         << " %. Or ask for short edges only where it breaks: a [[region]] with edge = " << wanted_edge;

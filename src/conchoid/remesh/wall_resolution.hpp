@@ -24,13 +24,15 @@ inline constexpr std::size_t most_advised_elements = 16000;
 
 /// Walls that the boundary elements are too coarse for.
 struct CoarseWalls {
-  double share = 0;                   ///< of the surface
-  double edge = 0, thickness = 0;     ///< in the middle of that part, by area [m]
-  bool paired = false;                ///< its nodes lie opposite each other
-  double shown = 0;                   ///< of the bending stress, there
-  double wanted_edge = 0;             ///< that would show least_shown all over [m]
-  std::size_t wanted_triangles = 0;   ///< with edges that follow the thickness
-  double bytes() const { return 37.0 * static_cast<double>(wanted_triangles) * static_cast<double>(wanted_triangles); }
+  double share = 0;                  ///< of the surface
+  double edge = 0, thickness = 0;    ///< in the middle of that part, by area [m]
+  bool paired = false;               ///< its nodes lie opposite each other
+  double shown = 0;                  ///< of the bending stress, there
+  double wanted_edge = 0;            ///< that would show least_shown all over [m]
+  std::size_t wanted_triangles = 0;  ///< with edges that follow the thickness
+  double bytes() const {
+    return 37.0 * static_cast<double>(wanted_triangles) * static_cast<double>(wanted_triangles);
+  }
   bool affordable() const { return wanted_triangles <= most_advised_elements; }
   /// Shown by most_advised_elements in place of the wanted ones.
   double shown_by_most() const;

@@ -15,28 +15,33 @@ namespace conchoid {
 namespace {
 
 constexpr double edges_per_wall = 2, edges_per_radius = 2;
+constexpr double rounding = 1.03;  // of the value that is advised, to two digits
 constexpr double least_rows = 1.5;
 
-std::string place(const Vec3& x) {
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2]);
+/// @param length  beside which round-off is nothing [m]
+std::string place(const Vec3& x, double length) {
+  const auto clean = [&](double v) { return std::abs(v) < 1e-9 * length ? 0.0 : v; };
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", clean(x[0]), clean(x[1]), clean(x[2]));
 }
 
 std::vector<std::string> crack_edge_warnings(const PreparedBody& body) {
   std::vector<std::string> out;
   const double edge = body.crack_edge;
-  if (const auto wall = thinnest_wall(body.surface, edges_per_wall * edge))
-    out.push_back(fmt::format("resolution.crack = {:.2g} m on a wall of {:.2g} m: a new crack, a disc of that radius, goes "
-                              "right through, and its fronts have hardly a node inside; use {:.2g} or less to see cracks "
-                              "grow through the wall",
-                              edge, *wall, *wall / edges_per_wall));
+  if (const auto wall = thinnest_wall(body.surface, edges_per_wall * edge / rounding))
+    out.push_back(fmt::format(
+        "resolution.crack = {:.2g} m on a wall of {:.2g} m: a new crack, a disc of that radius, goes "
+        "right through, and its fronts have hardly a node inside; use {:.2g} or less to see cracks "
+        "grow through the wall",
+        edge, *wall, *wall / edges_per_wall));
   const std::vector<Bore> holes = bores(body.surface);
   const auto smallest = std::min_element(holes.begin(), holes.end(),
                                          [](const Bore& a, const Bore& b) { return a.radius < b.radius; });
-  if (smallest != holes.end() && edge > smallest->radius / edges_per_radius)
-    out.push_back(fmt::format("resolution.crack = {:.2g} m at a hole of radius {:.2g} m around {}: a new crack reaches beyond "
-                              "the stress that the hole raises; use {:.2g} or less",
-                              edge, smallest->radius, place(smallest->center + body.origin),
-                              smallest->radius / edges_per_radius));
+  if (smallest != holes.end() && edge > rounding * smallest->radius / edges_per_radius)
+    out.push_back(fmt::format(
+        "resolution.crack = {:.2g} m at a hole of radius {:.2g} m around {}: a new crack reaches beyond "
+        "the stress that the hole raises; use {:.2g} or less",
+        edge, smallest->radius, place(smallest->center + body.origin, smallest->radius),
+        smallest->radius / edges_per_radius));
   return out;
 }
 
@@ -49,7 +54,8 @@ struct Depth {
 
 std::vector<Depth> depths(const CrackState& crack) {
   const std::vector<int> part = connected_parts(crack.trimmed);
-  std::vector<Depth> out(part.empty() ? 0 : 1 + static_cast<std::size_t>(*std::max_element(part.begin(), part.end())));
+  std::vector<Depth> out(
+      part.empty() ? 0 : 1 + static_cast<std::size_t>(*std::max_element(part.begin(), part.end())));
   TriMesh lines;
   lines.positions = crack.trimmed.positions;
   for (const Front& front : crack.fronts)
@@ -81,9 +87,10 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
     if (d.count == 0) continue;
     const double edge = d.edges / static_cast<double>(d.count);
     if (d.depth < least_rows * edge)
-      out.push_back(fmt::format("the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K may be "
-                                "less than half of the true one; use resolution.crack = {:.2g}, or a mesh of three rows",
-                                place(d.at + body.origin), d.depth, edge, d.depth / 3));
+      out.push_back(fmt::format(
+          "the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K may be "
+          "less than half of the true one; use resolution.crack = {:.2g}, or a mesh of three rows",
+          place(d.at + body.origin, edge), d.depth, edge, d.depth / 3));
   }
   return out;
 }
@@ -97,7 +104,8 @@ std::vector<std::string> element_warnings(const PreparedBody& body) {
   return {walls->text()};
 }
 
-std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack, bool growing) {
+std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack,
+                                             bool growing) {
   std::vector<std::string> out = element_warnings(body);
   const auto add = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(out));

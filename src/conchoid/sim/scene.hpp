@@ -23,9 +23,9 @@ namespace conchoid {
 // about things that only the mesh shows.
 
 struct BodySpec {
-  std::string model;           ///< built-in model; empty: `mesh` is given
-  std::filesystem::path mesh;  ///< absolute, or relative to the working folder; empty: `model` is given
-  std::optional<int> remesh;   ///< wanted number of triangles
+  std::string model;             ///< built-in model; empty: `mesh` is given
+  std::filesystem::path mesh;    ///< absolute, or relative to the working folder; empty: `model` is given
+  std::optional<int> remesh;     ///< wanted number of triangles
   bool follow_thickness = true;  ///< when remeshed: shorter edges on thin walls
   double scale = 1;  ///< factor on the coordinates of the body (and of the crack its model comes with)
   bool scale_given = false;  ///< none: a mesh that is hardly in metres is warned of

@@ -72,7 +72,8 @@ const std::vector<Setting>& settings() {
       {"body", "remesh", integer, "triangles", "",
        "BEM triangles after remeshing; without it the mesh is used as it is", between(20, 200000)},
       {"body", "follow_thickness", boolean, "", "true",
-       "with remesh: shorter edges on walls thinner than the triangles would be, so that these show the bending stress, as "
+       "with remesh: shorter edges on walls thinner than the triangles would be, so that these show the "
+       "bending stress, as "
        "far as the number lasts; no effect where walls are stout"},
       {"body", "scale", number, "", "1.0",
        "factor on the body's coordinates; everything else in the scene stays as written", above(0)},
