@@ -15,7 +15,7 @@ namespace conchoid {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double least_share = 0.01;       // of the surface
+constexpr double least_share = 0.05;       // of the surface: as coarse_walls() says
 constexpr double longest_for_walls = 2;    // × the mean edge: of what is stout
 constexpr double longest_for_limits = 20;  // × the mean edge: of what has no limit
 constexpr double aimed =

@@ -31,7 +31,7 @@ struct LocalEdges {
 };
 
 /// What the settings ask for as sizes, so that edges of the field take `target` triangles. None where there is nothing to do: walls
-/// thinner than their elements are less than 1 % of the surface, and no limit is below what the edges are anyway.
+/// thinner than their elements are less than 5 % of the surface, and no limit is below what the edges are anyway.
 /// @param plain  without them, of the same surface; its value 1 stands for `edge`
 /// Throws InputError where the limits alone take more than `target`.
 std::optional<LocalEdges> local_edges(const SizeField& plain, double edge, std::size_t target,

@@ -28,8 +28,7 @@ Body with_settings(Body body, const BodySettings& settings) {
     scale(crack, settings.scale);
   body.surface = body.detailed;
   if (!settings.remesh || body.infinite()) return body;
-  TriMesh elements =
-      kept_remesh(body.detailed, *settings.remesh, settings.elements, settings.cache.get());
+  TriMesh elements = kept_remesh(body.detailed, *settings.remesh, settings.elements, settings.cache.get());
   return with_elements(std::move(body), std::move(elements));
 }
 

@@ -42,7 +42,7 @@ struct BodySettings {
   double scale = 1;                                  ///< factor on all coordinates
   bool guess_unit = false;                           ///< warn of a file that is hardly in metres
   std::shared_ptr<const ByteCache> cache = nullptr;  ///< of remeshed surfaces
-  RemeshSettings elements = {};  ///< where remeshing makes them short, at the final size
+  RemeshSettings elements = {};                      ///< where remeshing makes them short, at the final size
 };
 
 /// Reads a surface; loose seams are welded (remesh/weld.hpp), with a warning. Throws InputError for a mesh that bounds no body, with its defects.

@@ -93,8 +93,7 @@ SurfaceAttributes element_materials(const Body& body) {
 }  // namespace
 
 Body scene_body(const Scene& scene) {
-  BodySettings settings{
-      scene.body.remesh, scene.body.scale, !scene.body.scale_given, scene.run.cache, {}};
+  BodySettings settings{scene.body.remesh, scene.body.scale, !scene.body.scale_given, scene.run.cache, {}};
   settings.elements.follow_thickness = scene.body.follow_thickness;
   for (const SceneRegion& region : scene.regions)
     if (region.edge)
