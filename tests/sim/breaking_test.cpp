@@ -42,23 +42,53 @@ TEST_P(SeveralCracks, PartThePulledCube) {
   EXPECT_LT(area(result), GetParam() + 1);
 }
 
-TEST_P(SeveralCracks, PartThePulledBar) {
+RunResult pulled_bar(const std::string& run_keys) {
   const test::TemporaryFolder folder;
   const TriMesh bar = box_mesh({0.02, 0.02, 0.1}, 4, 4, 20);
   const Box box = bounding_box(bar);
   const double e = 1e-4;
-  const RunResult result = test::run_text(
-      test::mesh_body_text(test::write_mesh_in(folder, "bar.obj", bar)) + glass() +
-      test::resolution_text(0.004, 0.0005) +
-      test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
-      test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
-      test::boundary_text("high", "traction", {0, 0, 6e7}) + "[[boundary]]\nregion = 'low'\nfixed = true\n" +
-      fmt::format("[run]\nafter_separation = 'stop'\nframes = 30\nmax_cracks = {}\n", GetParam()));
+  return test::run_text(test::mesh_body_text(test::write_mesh_in(folder, "bar.obj", bar)) + glass() +
+                        test::resolution_text(0.004, 0.0005) +
+                        test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
+                        test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
+                        test::boundary_text("high", "traction", {0, 0, 6e7}) +
+                        "[[boundary]]\nregion = 'low'\nfixed = true\n[run]\nframes = 30\n" + run_keys);
+}
+
+TEST_P(SeveralCracks, PartThePulledBar) {
+  const RunResult result =
+      pulled_bar(fmt::format("after_separation = 'stop'\nmax_cracks = {}\n", GetParam()));
   expect_pieces(result, 2);
   EXPECT_LT(area(result), (GetParam() + 1) * 0.02 * 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cracks, SeveralCracks, testing::Values(2, 3, 5));
+
+// A crack that ends in the piece touches itself at a point there.
+TEST(PulledBar, GoesOnInItsPieces) {
+  const RunResult result = pulled_bar("max_cracks = 3\n");
+  expect_pieces(result, 2);
+  for (const std::string& warning : result.document.warnings)
+    EXPECT_EQ(warning.find("cannot be computed"), std::string::npos) << warning;
+}
+
+TEST(OverloadedCube, BreaksAcross) {
+  const test::TemporaryFolder folder;
+  const RunResult result = test::run_text(
+      test::mesh_body_text(test::write_mesh_in(folder, "cube.obj", box_mesh({0.05, 0.05, 0.05}, 8, 8, 8))) +
+      "[material]\nname = 'ceramic'\n" +
+      test::region_text("top", test::half_space_text(Vec3::UnitZ(), 0.0249)) +
+      test::region_text("bottom", test::half_space_text(-Vec3::UnitZ(), 0.0249)) +
+      test::boundary_text("top", "traction", {0, 0, 1e9}) +
+      "[[boundary]]\nregion = 'bottom'\nfixed = true\n[run]\nmax_cracks = 3\n");
+  expect_pieces(result, 2);
+  EXPECT_LT(area(result), 4 * 0.05 * 0.05);
+  double fracture = 0;  // of the largest piece
+  const Fragment& rest = result.fragments.front();
+  for (std::size_t t = 0; t < rest.mesh.triangle_count(); ++t)
+    if (rest.face_kind[t] == FaceKind::fracture) fracture += area_vector(rest.mesh, TriId(t)).norm();
+  EXPECT_GT(fracture, 0.75 * 0.05 * 0.05);
+}
 
 struct Hollow {
   const char* name;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
@@ -160,6 +161,40 @@ TriMesh join(const std::vector<TriMesh>& meshes) {
           {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
   }
   return all;
+}
+
+TriMesh split_fans(const TriMesh& mesh, double gap) {
+  if (mesh.corners.empty()) return mesh;
+  const auto place = [&](TriId t, NodeId n) {
+    const auto& c = mesh.corners[t];
+    return 3 * t.index() + static_cast<std::size_t>(std::find(c.begin(), c.end(), n) - c.begin());
+  };
+  UnionFind corners(3 * mesh.triangle_count());
+  const auto neighbours = triangle_neighbours(mesh);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const TriId other = neighbours[TriId(t)][k]; other.valid())
+        for (const NodeId n : {mesh.corners[TriId(t)][k], mesh.corners[TriId(t)][(k + 1) % 3]})
+          corners.join(place(TriId(t), n), place(other, n));
+  std::map<NodeId, std::vector<std::size_t>> fans;  // roots
+  for (std::size_t i = 0; i < 3 * mesh.triangle_count(); ++i)
+    if (corners.root(i) == i) fans[mesh.corners[TriId(i / 3)][i % 3]].push_back(i);
+  TriMesh out = mesh;
+  std::map<std::size_t, NodeId> copy;  // by root
+  for (const auto& [node, roots] : fans)
+    for (std::size_t f = 0; roots.size() > 1 && f < roots.size(); ++f)
+      copy[roots[f]] = f == 0 ? node : out.positions.add(mesh.positions[node]);
+  std::map<NodeId, Vec3> towards;
+  for (std::size_t i = 0; i < 3 * mesh.triangle_count(); ++i)
+    if (const auto at = copy.find(corners.root(i)); at != copy.end()) {
+      const TriId t(i / 3);
+      out.corners[t][i % 3] = at->second;
+      const Vec3 way = centroid(mesh, t) - mesh.positions[mesh.corners[t][i % 3]];
+      towards.try_emplace(at->second, Vec3::Zero()).first->second += way;
+    }
+  for (const auto& [node, way] : towards)
+    if (way.norm() > 0) out.positions[node] += gap * way.normalized();
+  return out;
 }
 
 }  // namespace conchoid

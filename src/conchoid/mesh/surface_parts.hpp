@@ -27,6 +27,11 @@ TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles);
 /// Meshes as one, side by side: nodes and triangles in their order.
 TriMesh join(const std::vector<TriMesh>& meshes);
 
+/// The surface with a node of its own for each fan of triangles that meet in one node only: parts of a sheet that touch
+/// at a point have boundaries that run past it, not through it. Copies are drawn by `gap` [m] towards the middle of their
+/// fan; the first fan keeps the node's id. Edges have at most two triangles.
+TriMesh split_fans(const TriMesh& mesh, double gap);
+
 /// A closed chain of nodes along the boundary of a surface, in the direction that the triangles run through
 /// its edges. The first node is not repeated at the end.
 using BoundaryLoop = std::vector<NodeId>;

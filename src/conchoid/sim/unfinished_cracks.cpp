@@ -18,6 +18,7 @@ constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
 constexpr double kLeastArea = 1;    // × r̄²: of what goes on
 constexpr double kLift = 0.15;      // × r̄: to which it leaves such a face
+constexpr double kApart = 0.1;      // × r̄: what touched at a point only
 
 // The faces that cut the piece free, as a mesh; without triangles if there are none.
 TriMesh cut_faces(const Fragment& piece, const TriMesh& solid) {
@@ -117,7 +118,8 @@ bool goes_on_inside(const TriMesh& solid, const TriMesh& sheet, double crack_edg
 std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge) {
   if (piece.unfinished.solid.corners.empty()) return {};  // no slit: nothing ends in it
   const TriMesh& solid = piece.unfinished.solid;
-  const TriMesh kept = embedded_part(SheetInPiece(sheet, piece, solid, crack_edge).part());
+  const TriMesh kept =
+      split_fans(embedded_part(SheetInPiece(sheet, piece, solid, crack_edge).part()), kApart * crack_edge);
   std::vector<TriMesh> out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);
