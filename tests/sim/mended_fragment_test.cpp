@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "conchoid/mesh/models.hpp"
+#include "conchoid/remesh/validate.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 
 namespace conchoid {
@@ -65,6 +66,19 @@ TEST(MendedFragment, ASolidIsLeftAsItIs) {
   Fragment f;
   f.mesh = box_mesh(Vec3::Constant(1), 2, 2, 2);
   EXPECT_TRUE(is_solid(f));
+}
+
+// Faces parted by slits need not pass through each other where the surface without the slits does.
+TEST(MendedFragment, TheSurfaceWithoutSlitsIsMendedToo) {
+  Fragment f = folded_box();
+  f.unfinished.solid = f.mesh;
+  f.mesh = box_mesh(Vec3::Constant(1), 4, 4, 4);
+  f.face_kind.resize(f.mesh.triangle_count());
+  f.source.resize(f.mesh.triangle_count());
+  ASSERT_TRUE(is_solid(f));
+  mend_fragment(f);
+  EXPECT_TRUE(find_defects(f.unfinished.solid).empty());
+  EXPECT_EQ(f.unfinished.solid_face.size(), f.unfinished.solid.triangle_count());
 }
 
 }  // namespace

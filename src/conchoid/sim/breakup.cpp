@@ -188,6 +188,7 @@ void Breakup::State::wait(const std::vector<Fragment>& cut, std::size_t first_id
 }
 
 bool Breakup::State::begin_piece(Waiting& piece) {
+  mend_fragment(piece.fragment);
   PieceScene own = scene_of_piece(*piece.scene, *piece.body, piece.fragment);
   if (!is_loaded(own.scene)) return false;
   RunSpec& its_run = own.scene.run;

@@ -8,6 +8,7 @@
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/remesh/mend.hpp"
 #include "conchoid/remesh/patch_intersections.hpp"
+#include "conchoid/remesh/tidy.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 
 namespace conchoid {
@@ -38,6 +39,7 @@ std::optional<TriMesh> unfolded(const TriMesh& mesh) {
   for (int rings = 0; rings <= kMostRings; ++rings) {
     TriMesh tried = mesh;
     if (patch_intersections(tried, rings) == 0) break;
+    drop_unused_nodes(tried);
     if (good(tried)) return tried;
   }
   MendReport report;
@@ -45,15 +47,11 @@ std::optional<TriMesh> unfolded(const TriMesh& mesh) {
   return good(tried) ? std::optional(std::move(tried)) : std::nullopt;
 }
 
-}  // namespace
-
-bool is_solid(const Fragment& fragment) {
-  return is_solid(fragment.mesh);
-}
-
-void mend_fragment(Fragment& f) {
+// Whether it was changed.
+bool mend_surface(Fragment& f) {
+  if (is_solid(f.mesh)) return false;
   std::optional<TriMesh> mesh = unfolded(f.mesh);
-  if (!mesh) return;
+  if (!mesh) return false;
   std::vector<FaceKind> kind;
   std::vector<TriId> source;
   for (const TriId t : nearest_faces(*mesh, f.mesh)) {
@@ -65,11 +63,27 @@ void mend_fragment(Fragment& f) {
   f.face_kind = std::move(kind);
   f.source = std::move(source);
   f.watertight = true;
-  UnfinishedCracks& cracks = f.unfinished;
-  if (cracks.solid.corners.empty()) return;
-  if (!is_solid(cracks.solid))
-    if (std::optional<TriMesh> solid = unfolded(cracks.solid)) cracks.solid = std::move(*solid);
-  cracks.solid_face = nearest_faces(cracks.solid, f.mesh);
+  return true;
+}
+
+// Likewise. The slits that part its faces in the piece can hide where they pass through each other.
+bool mend_solid(UnfinishedCracks& cracks) {
+  if (cracks.solid.corners.empty() || is_solid(cracks.solid)) return false;
+  std::optional<TriMesh> solid = unfolded(cracks.solid);
+  if (solid) cracks.solid = std::move(*solid);
+  return solid.has_value();
+}
+
+}  // namespace
+
+bool is_solid(const Fragment& fragment) {
+  return is_solid(fragment.mesh);
+}
+
+void mend_fragment(Fragment& f) {
+  const bool surface = mend_surface(f), solid = mend_solid(f.unfinished);
+  if ((surface || solid) && !f.unfinished.solid.corners.empty())
+    f.unfinished.solid_face = nearest_faces(f.unfinished.solid, f.mesh);
 }
 
 }  // namespace conchoid

@@ -13,7 +13,7 @@ namespace conchoid {
 namespace {
 
 constexpr int kFewestElements = 120;                   // of a piece, however small: as the built-in cube
-constexpr std::array kTargets{1.0, 1.4, 2.0};          // × the elements wanted, until the mesh can be made
+constexpr std::array kTargets{1.0, 1.4, 2.0, 2.8, 4.0};  // × the elements wanted, until the mesh can be made
 constexpr int kMostElements = 200000, kFewFaces = 20;  // that remesh() takes
 
 TriMesh elements_of(const TriMesh& piece, double element_area) {
