@@ -3,6 +3,7 @@
 set(CONCHOID_PICTURE_LIBRARIES)
 set(CONCHOID_VDB_LIBRARIES)
 set(CONCHOID_LEARNING_LIBRARIES)
+set(CONCHOID_MPI_LIBRARIES)
 if(CONCHOID_WITH_PICTURES)
   conchoid_find(embree 3)
   conchoid_find(PNG)
@@ -26,4 +27,9 @@ if(CONCHOID_WITH_LEARNING)
   # Debian's xgboost-config.cmake asks for the xgboost program, which is another package.
   conchoid_external(xgboost LIBRARIES xgboost HEADER xgboost/c_api.h)
   set(CONCHOID_LEARNING_LIBRARIES conchoid_external::hdf5 conchoid_external::xgboost)
+endif()
+
+if(CONCHOID_WITH_MPI)
+  conchoid_find(MPI COMPONENTS CXX)
+  set(CONCHOID_MPI_LIBRARIES MPI::MPI_CXX)
 endif()

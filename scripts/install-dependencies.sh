@@ -15,6 +15,7 @@ case ${1:-all} in
   all)
     packages+=(
       libopenvdb-dev               # CONCHOID_WITH_VDB
+      libopenmpi-dev openmpi-bin   # CONCHOID_WITH_MPI
       libgtest-dev libbenchmark-dev libassimp-dev
     ) ;;
   *) echo "install-dependencies: '$1' is not known; choose from program, all" >&2; exit 2 ;;

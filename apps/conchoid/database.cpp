@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
@@ -76,7 +77,14 @@ void generate_and_print(const DatabaseOptions& options, const CommonOptions& com
   DatabaseSpec spec = read_database_spec(options.spec);
   if (options.runs > 0) spec.runs = options.runs;
   spec.scene.run.cache = open_cache(options.cache);
-  generate_database(spec, {.out = options.out, .shard = shard, .shards = shards, .resume = options.resume});
+  std::optional<Ranks> ranks;
+  if (Ranks::launched()) ranks.emplace();
+  generate_database(spec, {.out = options.out,
+                           .shard = shard,
+                           .shards = shards,
+                           .resume = options.resume,
+                           .ranks = ranks ? &*ranks : nullptr});
+  if (ranks && ranks->rank() > 0) return;
   const DatabaseInfo info = database_info(read_database(options.out));
   print(common.json ? json_text(info) : info_text(info));
 }

@@ -1,6 +1,7 @@
 // What a program says that was built without a part.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 
 #include "cli/program.hpp"
@@ -40,6 +41,11 @@ TEST(BuildOptions, WhatWasLeftOutIsRefusedBeforeAnyWork) {
   if (!CONCHOID_WITH_PICTURES) {
     ASSERT_EQ(run_program({"run", "cube.toml", "--frames", "1", "--out", "cube"}, folder.path()).status, 0);
     expect_refused(folder, {"picture", "cube", "--out", "cube.png"}, "CONCHOID_WITH_PICTURES");
+  }
+  if (!CONCHOID_WITH_MPI) {
+    setenv("PMI_SIZE", "2", 1);  // as a launcher does
+    expect_refused(folder, {"database", "generate", "spec.toml", "--out", "cube.h5"}, "CONCHOID_WITH_MPI");
+    unsetenv("PMI_SIZE");
   }
   EXPECT_EQ(files_below(folder.path()).size() > 4, !CONCHOID_WITH_PICTURES) << "nothing is left behind";
 }

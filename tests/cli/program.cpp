@@ -19,10 +19,16 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 Outcome run_program(const std::vector<std::string>& arguments, const fs::path& folder) {
+  std::vector<std::string> words{CONCHOID_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return run_command(words, folder);
+}
+
+Outcome run_command(const std::vector<std::string>& words, const fs::path& folder) {
   const TemporaryFolder captured;
-  std::string command = "cd " + quoted(folder) + " && " + quoted(CONCHOID_BINARY);
-  for (const std::string& argument : arguments)
-    command += " " + quoted(argument);
+  std::string command = "cd " + quoted(folder) + " &&";
+  for (const std::string& word : words)
+    command += " " + quoted(word);
   command += " >" + quoted(captured / "out") + " 2>" + quoted(captured / "err") + " </dev/null";
   const int status = std::system(command.c_str());
   Outcome outcome{.status = -1, .out = captured.read("out"), .err = captured.read("err")};

@@ -14,7 +14,9 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs the program with these arguments in a working folder.
+/// Runs any program with its arguments in a working folder.
+Outcome run_command(const std::vector<std::string>& words, const std::filesystem::path& folder);
+/// Runs ours.
 Outcome run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 /// All files below a folder.

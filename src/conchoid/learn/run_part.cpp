@@ -63,7 +63,7 @@ std::string header_text(const DatabaseHeader& h, bool with_shard) {
   return j.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-void write_run_part(const std::filesystem::path& file, const RunPart& part, std::uint64_t header_hash) {
+std::string run_part_bytes(const RunPart& part, std::uint64_t header_hash) {
   ByteWriter out;
   out.put_raw(magic);
   out.put(header_hash);
@@ -73,14 +73,21 @@ void write_run_part(const std::filesystem::path& file, const RunPart& part, std:
   for (std::size_t f = 0; f < SampleSet::field_count; ++f)
     out.put_all(std::span<const double>(part.samples.field(f)));
   out.put(hash_bytes(out.bytes()));
-  write_bytes(file, out.bytes());
+  return out.bytes();
+}
+
+void write_run_part(const std::filesystem::path& file, const RunPart& part, std::uint64_t header_hash) {
+  write_bytes(file, run_part_bytes(part, header_hash));
 }
 
 RunPart read_run_part(const std::filesystem::path& file, std::uint64_t header_hash) {
+  return run_part_from(read_bytes(file), header_hash, file.string());
+}
+
+RunPart run_part_from(const std::string& bytes, std::uint64_t header_hash, const std::string& name) {
   const auto refuse = [&](const std::string& what) {
-    return InputError(file.string() + ": " + what + "; remove this file and the run will be generated again");
+    return InputError(name + ": " + what + "; remove this file and the run will be generated again");
   };
-  const std::string bytes = read_bytes(file);
   if (!std::string_view(bytes).starts_with(magic)) throw refuse("is not a finished run of a database");
   if (bytes.size() < magic.size() + 16 ||
       ByteReader(std::string_view(bytes).substr(bytes.size() - 8)).get<std::uint64_t>() !=
