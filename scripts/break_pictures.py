@@ -50,8 +50,9 @@ def scene(name, folder, scan):
         return ends('[body]\nmodel = "cube"\n[resolution]\nsurface = 0.01\n', -0.499, 0.499, 6e7, "[run]\nmax_cracks = 6\n")
     if name == "vase":
         vase(folder / "vase.obj")
-        return ends('[body]\nmesh = "vase.obj"\n[resolution]\ncrack = 0.006\nsurface = 0.0006\n', 0.0005, 0.2995, 4e7,
-                    "[run]\nmax_cracks = 3\n")
+        return ends('[body]\nmesh = "vase.obj"\n[resolution]\ncrack = 0.006\nsurface = 0.0006\n', 0.0005, 0.2995, 2e7,
+                    '[[crack]]\nkind = "disc"\ncenter = [0.044, 0.0, 0.22]\nnormal = [0.0, 0.0, 1.0]\nradius = 0.012\n'
+                    "[run]\nmax_cracks = 2\n")
     if name == "beam":
         return example("beam") + "\n[run]\nmax_cracks = 3\n"
     if name == "disc":
@@ -72,7 +73,7 @@ def main():
             program = options.conchoid.resolve()
             subprocess.run([program, "run", "scene.toml", "--out", "run"], cwd=folder, check=True)
             picture = ROOT / "docs/images" / f"broken-{name}.png"
-            subprocess.run([program, "picture", "run", "--plain", "--explode", "0.5", "--width", "1000", "--height", "800",
+            subprocess.run([program, "picture", "run", "--plain", "--explode", "0.5", *(["--up", "y", "--from", "0.5,0.35,1"] if name == "armadillo" else []), "--width", "1000", "--height", "800",
                             "--out", picture], cwd=folder, check=True)
 
 
