@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the benchmarks, runs them and writes bench/results/DATE-MACHINE.json and the table bench/results/README.md.
 # Further arguments go to the benchmark program (--benchmark_filter=…). BUILD names another build folder, MACHINE another name.
+#   scripts/bench.sh --goals [--only WORD…]    the table of goals for speed and what is reached (bench/goals.py), nothing written
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,6 +12,11 @@ if [ ! -f "$build/CMakeCache.txt" ]; then
 fi
 cmake -B "$build" -DCONCHOID_BUILD_BENCH=ON
 cmake --build "$build" --target conchoid_bench
+
+if [ "${1:-}" = --goals ]; then
+  cmake --build "$build" --target conchoid
+  exec python3 bench/goals.py "$build" "${@:2}"
+fi
 
 processor=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -1)
 machine=${MACHINE:-$(printf '%s-%s-cores' "${processor:-$(uname -m)}" "$(nproc)" |

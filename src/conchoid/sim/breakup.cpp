@@ -31,20 +31,6 @@ bool moves(const Fracture& fracture) {
           !find_crack_sites(fracture.body(), fracture.crack(), fracture.solution(), 1).empty());
 }
 
-// Volume of all pieces but the largest.
-double volume_off(const Fracture& fracture) {
-  std::vector<double> volume;
-  if (fracture.parted() != nullptr)
-    for (const Fragment& f : fracture.parted()->fragments)
-      volume.push_back(f.volume);
-  else
-    volume = glue(fracture.crack().cut).volume;
-  double sum = 0;
-  for (const double v : volume)
-    sum += v;
-  return sum - *std::max_element(volume.begin(), volume.end());
-}
-
 // Hands on what a body does; of a piece nothing before the first frame in which it moves.
 class Relay : public FractureObserver {
  public:
@@ -170,6 +156,7 @@ void Breakup::State::begin(std::shared_ptr<const Scene> of_body,
                                         settings.source ? settings.source(*body) : MakeOpeningSource{});
   ended = false;
   fracture->count_from(frame);
+  if (settings.after == BreakupSettings::After::chips) fracture->cut_below(run.smallest_body * volume);
   fracture->add_observer(relay);
   if (rows.store) fracture->keep_rows(&rows);
   relay.begin(id.has_value());
@@ -228,7 +215,7 @@ void Breakup::State::give_up(const std::exception& error) {
 
 // A chip is no separation; what it came off goes on, if it can.
 void Breakup::State::end_without_chips(StopReason reason) {
-  const bool chip = reason == StopReason::separated && volume_off(*fracture) < run.smallest_body * volume;
+  const bool chip = reason == StopReason::separated && fracture->volume_off() < run.smallest_body * volume;
   outcome = chip || (id && reason == StopReason::intact) ? StopReason::arrested : reason;
   if (chip) wait(cut_into_pieces(*fracture, output).fragments, 0, 1);
 }

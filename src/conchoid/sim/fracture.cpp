@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
@@ -49,6 +51,11 @@ ToughnessField toughness_field(const PreparedBody& body) {
     const FieldSample factor = field.at(x);
     return Toughness{K_c * factor.value, K_c * factor.gradient};
   };
+}
+
+// All but the largest.
+double smaller_parts(const std::vector<double>& volume) {
+  return std::accumulate(volume.begin(), volume.end(), 0.0) - *std::max_element(volume.begin(), volume.end());
 }
 
 class Clock {
@@ -111,15 +118,19 @@ struct Fracture::State {
                       FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
 
-  ClosestPointTree surface_tree{body->surface};        // of the boundary elements
-  int unresolved_frames = 0;                           // in a row
+  ClosestPointTree surface_tree{body->surface};  // of the boundary elements
+  int unresolved_frames = 0;                     // in a row
+  double cut_below =
+      std::numeric_limits<double>::infinity();         // volume that comes off: above, nothing is cut [m³]
   std::optional<BodyCut> parted;                       // when it separated
+  double part_volume = 0;                              // of what has come off when it was not cut [m³]
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
   bool solved() const { return !predictor && carried == 0; }
   TriMesh swept_surface() const;
   const std::vector<TriMesh>& visible_sheets() const;
   std::vector<TriMesh> unfold_visible_sheets() const;
+  bool is_told(double volume);
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
   bool barred() const;
@@ -136,9 +147,17 @@ struct Fracture::State {
   void compute_frame(const Fracture& self, StepReport& report);
 };
 
+// Whether so much has come off that nothing needs to be cut to believe it.
+bool Fracture::State::is_told(double volume) {
+  if (volume < cut_below) return false;
+  part_volume = volume;
+  return true;
+}
+
 // By the cut of the boundary elements, and of the detailed body, which the markers may not have crossed quite.
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
+  if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
   return parts([](const LastLigament&) { return true; });
 }
 
@@ -198,8 +217,9 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
-  if (std::none_of(ligaments.begin(), ligaments.end(), breaks)) return false;
-  return parts(breaks);
+  const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
+  if (first == ligaments.end()) return false;
+  return is_told(first->smaller_part) || parts(breaks);
 }
 
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.
@@ -449,6 +469,19 @@ const std::vector<TriMesh>& Fracture::visible_sheets() const {
 TriMesh Fracture::swept_surface() const {
   return state_->swept_surface();
 }
+void Fracture::cut_below(double volume) {
+  state_->cut_below = volume;
+}
+
+double Fracture::volume_off() const {
+  const BodyCut* cut = parted();
+  if (cut == nullptr) return state_->part_volume;
+  std::vector<double> volume;
+  for (const Fragment& f : cut->fragments)
+    volume.push_back(f.volume);
+  return smaller_parts(volume);
+}
+
 const BodyCut* Fracture::parted() const {
   return state_->parted ? &*state_->parted : nullptr;
 }

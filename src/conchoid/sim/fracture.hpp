@@ -91,6 +91,9 @@ class Fracture {
   /// Frames are counted from here on, for a piece of a body that has broken in so many frames; call it before
   /// the first step.
   void count_from(int frames);
+  /// Where more than this volume [m³] comes off the boundary elements alone tell so, and the detailed body is not cut: for
+  /// runs whose pieces nobody wants. Call it before the first step; without it every separation is cut.
+  void cut_below(double volume);
 
   /// Must outlive the fracture. Called in the order they were added.
   void add_observer(FractureObserver& observer);
@@ -128,6 +131,8 @@ class Fracture {
   TriMesh swept_surface() const;
   /// The detailed body as it was cut when it separated; null before, and where the settings do not ask for it.
   const BodyCut* parted() const;
+  /// Volume of what has come off, all but the largest piece [m³]; 0 before it separates.
+  double volume_off() const;
 
  private:
   struct State;

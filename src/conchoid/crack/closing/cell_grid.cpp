@@ -111,16 +111,25 @@ Vec3 CellGrid::center(std::size_t cell) const {
 }
 
 void CellGrid::mark_near(const Vec3& place, double reach, std::vector<bool>& near) const {
-  std::array<int, 3> low{}, high{};
-  for (int a = 0; a < 3; ++a) {
-    const int middle = static_cast<int>(std::lround(place[a])), most = static_cast<int>(std::ceil(reach));
-    low[a] = std::max(middle - most, 0);
-    high[a] = std::min(middle + most, count_[a] - 1);
+  // Along an axis: the cells within a distance of the place.
+  const auto range = [&](int a, double within) {
+    return std::pair{std::max(static_cast<int>(std::ceil(place[a] - within)), 0),
+                     std::min(static_cast<int>(std::floor(place[a] + within)), count_[a] - 1)};
+  };
+  const auto left = [](double within, double used) {
+    return std::sqrt(std::max(0.0, within * within - used * used));
+  };
+  const auto [i0, i1] = range(0, reach);
+  for (int i = i0; i <= i1; ++i) {
+    const double across = left(reach, i - place[0]);
+    const auto [j0, j1] = range(1, across);
+    for (int j = j0; j <= j1; ++j) {
+      const auto [k0, k1] = range(2, left(across, j - place[1]));
+      if (k0 > k1) continue;
+      const auto first = near.begin() + static_cast<std::ptrdiff_t>(cell(i, j, k0));
+      std::fill(first, first + (k1 - k0 + 1), true);
+    }
   }
-  for (int i = low[0]; i <= high[0]; ++i)
-    for (int j = low[1]; j <= high[1]; ++j)
-      for (int k = low[2]; k <= high[2]; ++k)
-        if ((Vec3(i, j, k) - place).norm() <= reach) near[cell(i, j, k)] = true;
 }
 
 template <class Found>

@@ -98,6 +98,7 @@ class SurfaceMaker {
   // Marching tetrahedra between the two sides, from the lower to the upper.
   void march() {
     for (std::size_t c = 0; c < grid_.cells(); ++c) {
+      if (!near_[c]) continue;
       const auto at = grid_.place(c);
       if (at[0] + 1 >= grid_.count()[0] || at[1] + 1 >= grid_.count()[1] || at[2] + 1 >= grid_.count()[2])
         continue;
