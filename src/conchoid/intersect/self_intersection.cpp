@@ -231,19 +231,35 @@ bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<Nod
 }
 
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit) {
+  std::vector<TriId> all;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    all.emplace_back(t);
+  return self_intersections(mesh, all, limit);
+}
+
+std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, const std::vector<TriId>& faces,
+                                                        std::size_t limit) {
   constexpr std::size_t kGrain = 256, kGrainsAtOnce = 64;
   std::vector<std::pair<TriId, TriId>> found;
+  if (faces.empty()) return found;
   const BoxTree tree(mesh);
-  const std::size_t n = mesh.triangle_count();
-  for (std::size_t begin = 0; begin < n && found.size() < limit; begin += kGrain * kGrainsAtOnce) {
+  std::vector<char> asked(mesh.triangle_count(), 0);
+  for (const TriId t : faces)
+    asked[t.index()] = 1;
+  const bool all = faces.size() == asked.size();
+  const std::size_t n = faces.size();
+  // Of all triangles the first pairs are those of the first triangles; of some, all have to be known first.
+  for (std::size_t begin = 0; begin < n && (found.size() < limit || !all); begin += kGrain * kGrainsAtOnce) {
     const std::size_t count = std::min(n - begin, kGrain * kGrainsAtOnce);
     std::vector<std::vector<std::pair<TriId, TriId>>> of_grain((count + kGrain - 1) / kGrain);
     parallel_for(count, kGrain, [&](std::size_t from, std::size_t to) {
       auto& own = of_grain[from / kGrain];
       for (std::size_t i = begin + from; i < begin + to; ++i) {
+        const TriId s = faces[i];
         const auto first = static_cast<std::ptrdiff_t>(own.size());
-        tree.visit_overlapping(box_of(mesh.triangle(TriId(i))), [&](TriId t) {
-          if (TriId(i) < t && triangles_intersect(mesh, TriId(i), t)) own.emplace_back(TriId(i), t);
+        tree.visit_overlapping(box_of(mesh.triangle(s)), [&](TriId t) {
+          if ((s < t || (t < s && !asked[t.index()])) && triangles_intersect(mesh, s, t))
+            own.emplace_back(std::min(s, t), std::max(s, t));
         });
         std::sort(own.begin() + first, own.end());
       }
@@ -251,6 +267,7 @@ std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std
     for (const auto& own : of_grain)
       found.insert(found.end(), own.begin(), own.end());
   }
+  if (!all) std::sort(found.begin(), found.end());
   if (found.size() > limit) found.resize(limit, {TriId(), TriId()});
   return found;
 }

@@ -18,4 +18,8 @@ bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<Nod
 /// The first `limit` pairs of triangles that intersect, s < t, ascending.
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit);
 
+/// Likewise of pairs that hold one of the faces (ascending), by looking around these alone.
+std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, const std::vector<TriId>& faces,
+                                                        std::size_t limit);
+
 }  // namespace conchoid

@@ -21,6 +21,8 @@ constexpr std::array<LigamentOverlap, 8> kOverlaps{
 // the part: the volumes are counted in cells.
 constexpr double kLeastShareOfPart = 0.5;
 
+constexpr int kCleanWays = 2;  // tried, where they part off chips as well
+
 constexpr double kSlitWidth = 2e-4;  // × the crack surface's edge length
 
 FragmentSettings fragment_settings(const PreparedBody& body, const RunSpec& run) {
@@ -111,21 +113,20 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
     if (!breaks(ligament)) continue;
     std::vector<Fragment> best;
     TriMesh best_surface;
-    bool best_clean = false;
+    int clean_ways = 0;
     for (const LigamentOverlap& overlap : kOverlaps) {
       TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
       std::vector<Fragment> parts =
           parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
       if (parts.size() < 2 || parts[1].volume < kLeastShareOfPart * ligament.smaller_part) continue;
       OpenFragments open = open_all(parts, slit_width(body));
-      if (best.empty() || open.clean > best_clean ||
-          (open.clean == best_clean && parts.size() < best.size())) {
+      if (open.clean) ++clean_ways;
+      if (best.empty() || (open.clean && (clean_ways == 1 || parts.size() < best.size()))) {
         best = std::move(parts);
         best_surface = std::move(surface);
-        best_clean = open.clean;
         cut.opened = std::move(open.positions);
       }
-      if (best_clean && best.size() == 2) break;
+      if (clean_ways == kCleanWays || (clean_ways > 0 && best.size() == 2)) break;
     }
     if (best.empty()) continue;
     cut.ligament = parting_faces(best, best_surface, all.triangle_count());

@@ -47,8 +47,9 @@ struct Corner {
 };
 
 /// Which way each node at a slit goes, 1 being half the slit's width.
-IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places) {
-  const auto opposite = opposite_faces(f, places);
+/// @param opposite  the faces that lie on each one
+IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places,
+                            const std::vector<std::vector<std::size_t>>& opposite) {
   // At a slit's front both of its faces have the node: there it stays between them.
   const auto parts_from = [&](NodeId n, const std::vector<std::size_t>& faces) {
     return !faces.empty() && std::none_of(faces.begin(), faces.end(), [&](std::size_t t) {
@@ -85,7 +86,8 @@ IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places) {
 
 bool open_slits(Fragment& f, double width) {
   const SharedPlaces places(f.mesh);
-  const IdVector<NodeId, Vec3> way = ways(f, places);
+  const auto opposite = opposite_faces(f, places);
+  const IdVector<NodeId, Vec3> way = ways(f, places, opposite);
   const IdVector<NodeId, Vec3> closed = f.mesh.positions;
   IdVector<NodeId, double> share(f.mesh.node_count(), 1.0);  // by place
   const auto move = [&] {
@@ -94,11 +96,17 @@ bool open_slits(Fragment& f, double width) {
         f.mesh.positions[n] = closed[n] + 0.5 * width * share[places.first[n]] * way[n];
   };
   if (std::all_of(way.begin(), way.end(), [](const Vec3& w) { return w.isZero(0); })) return true;
+  std::vector<TriId> slit;  // what moves, and what lies on another face
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
+    const auto& c = f.mesh.corners[TriId(t)];
+    if (!opposite[t].empty() || std::any_of(c.begin(), c.end(), [&](NodeId n) { return !way[n].isZero(0); }))
+      slit.emplace_back(t);
+  }
   move();
   constexpr std::size_t most_pairs = 10000;
   constexpr int rounds = 5;
   for (int round = 1; round <= rounds; ++round) {
-    const auto crossing = self_intersections(f.mesh, most_pairs);
+    const auto crossing = self_intersections(f.mesh, slit, most_pairs);
     IdVector<NodeId, char> reached(f.mesh.node_count(), 0);
     bool any = false;
     for (const auto& [s, t] : crossing)
@@ -110,7 +118,7 @@ bool open_slits(Fragment& f, double width) {
       if (reached[NodeId(n)]) share[NodeId(n)] = round == rounds ? 0 : 0.3 * share[NodeId(n)];
     move();
   }
-  return self_intersections(f.mesh, 1).empty();
+  return self_intersections(f.mesh, slit, 1).empty();
 }
 
 }  // namespace conchoid
