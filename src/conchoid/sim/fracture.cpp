@@ -247,9 +247,10 @@ void Fracture::State::start(StepReport& report) {
 
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
-  report.source = predictor && !first(report.frame) ? predictor->name() : bem.name();
+  report.source = bem.name();
   if (predictor) {
     openings = predictor->open(crack);
+    if (!predictor->solved()) report.source = predictor->name();
     return;
   }
   try {
@@ -425,7 +426,7 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
   return state_->decisions;
 }
 bool Fracture::solved() const {
-  return state_->predictor ? state_->first(state_->frame) : state_->solved();
+  return state_->predictor ? state_->predictor->solved() : state_->solved();
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();
