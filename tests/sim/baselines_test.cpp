@@ -120,6 +120,14 @@ TEST(Baselines, SolvedInEveryFrameTheyAreTheSolution) {
     EXPECT_EQ(run(text + "solve_every = 1\n", method).document.hash, solved) << method;
 }
 
+TEST(Baselines, NewCracksStartInFramesThatAreSolved) {
+  const std::string text = test::pulled_cube_text() + "max_cracks = 3\n";
+  const RunResult solved = run(text, "bem", 4), kept = run(text + "solve_every = 1\n", "kept", 4);
+  EXPECT_GT(solved.cracks, 1);
+  EXPECT_EQ(kept.cracks, solved.cracks);
+  EXPECT_EQ(kept.document.hash, solved.document.hash);
+}
+
 TEST(Baselines, SolvedInEverySecondFrame) {
   const RunResult result = run(test::pulled_cube_text() + "solve_every = 2\n", "kept");
   ASSERT_GE(result.document.timings.size(), 4u);

@@ -42,9 +42,9 @@ TEST(Experiments, TheWholeChecklistIsThere) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"table-1", "table-2", "table-3", "figure-5", "figure-6", "figure-7",
                                           "figure-8", "figure-9", "figure-10", "figure-11", "figure-12",
-                                          "figure-13", "tree-study"}));
+                                          "figure-13", "tree-study", "held-out"}));
   EXPECT_EQ(experiments().front().name, "table-1");
-  EXPECT_EQ(experiments().back().name, "tree-study");
+  EXPECT_EQ(experiments()[11].name, "figure-13");
 }
 
 TEST(Experiments, WhatCannotBeMadeIsRefusedBeforeAnythingIs) {
@@ -70,6 +70,8 @@ TEST(Experiments, ScenesAndDatabasesAreWellFormedInBothSizes) {
          {cube_database(scale), cube_database(scale, near), small_cube_database(scale),
           cylinder_database(scale), bar_database(scale), magnitude_database(scale), held_out_cubes(scale)})
       EXPECT_NO_THROW(parse_database_spec(text, "spec", "/tmp")) << text;
+  EXPECT_NE(held_out_scene(cube_scene, 0), held_out_scene(cube_scene, 1));
+  EXPECT_NO_THROW(parse_scene(held_out_scene(cylinder_scene, 3), "scene", "/tmp"));
   EXPECT_EQ(parse_database_spec(cube_database(StudyScale::full), "spec", "/tmp").runs, 7502);
   EXPECT_EQ(parse_database_spec(bar_database(StudyScale::full), "spec", "/tmp").runs, 151);
 }

@@ -116,7 +116,9 @@ struct Fracture::State {
   std::optional<BodyCut> parted;                       // when it separated
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
-  bool solved() const { return !predictor && carried == 0; }
+  bool solved() const { return predictor ? predictor->solved() : carried == 0; }
+  // A prediction knows nothing of cracks that start later, unless it is solved now and then.
+  bool may_start_cracks() const { return solved() && (!predictor || settings.solve_every > 0); }
   TriMesh swept_surface() const;
   const std::vector<TriMesh>& visible_sheets() const;
   std::vector<TriMesh> unfold_visible_sheets() const;
@@ -324,7 +326,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     return;
   }
   const std::size_t fronts_before = crack.sheet.fronts.size();
-  if (solved()) start_cracks(report);
+  if (may_start_cracks()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty()) {
@@ -426,7 +428,7 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
   return state_->decisions;
 }
 bool Fracture::solved() const {
-  return state_->predictor ? state_->predictor->solved() : state_->solved();
+  return state_->solved();
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "conchoid/mesh/box.hpp"
 #include "conchoid/study/solid_overlap.hpp"
 #include "conchoid/study/surface_distance.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 
 constexpr double negligible_share = 0.02;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-Box joined(const Box& a, const Box& b) {
-  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
-}
 
 bool same_box(const Box& a, const Box& b) {
   const double tolerance = 1e-6 * std::max(a.diagonal(), b.diagonal());
@@ -28,7 +25,7 @@ double scene_diagonal(const RunData& a, const RunData& b) {
   if (a.document.body) return a.document.body->diagonal();
   if (a.crack.positions.empty()) return bounding_box(b.crack).diagonal();
   if (b.crack.positions.empty()) return bounding_box(a.crack).diagonal();
-  return joined(bounding_box(a.crack), bounding_box(b.crack)).diagonal();
+  return united(bounding_box(a.crack), bounding_box(b.crack)).diagonal();
 }
 
 std::vector<TriMesh> meshes_of(const std::vector<Fragment>& fragments) {
@@ -82,9 +79,10 @@ std::array<double, 2> weighted_distances(const std::vector<Fragment>& from, cons
     const Fragment* best = &to.front();
     double most = -1;
     for (const Fragment& other : to) {
-      const double overlap = intersection_over_union(piece.mesh, other.mesh, lines);
-      if (overlap > most) {
-        most = overlap;
+      if (!overlap(bounding_box(piece.mesh), bounding_box(other.mesh))) continue;
+      const double common = intersection_over_union(piece.mesh, other.mesh, lines);
+      if (common > most) {
+        most = common;
         best = &other;
       }
     }

@@ -11,8 +11,9 @@ namespace {
 
 std::vector<Experiment> all_experiments() {
   std::vector<Experiment> all = database_experiments();
-  for (Experiment& e : scene_experiments())
-    all.push_back(std::move(e));
+  for (auto* more : {&scene_experiments, &held_out_experiments})
+    for (Experiment& e : (*more)())
+      all.push_back(std::move(e));
   // Tables before figures before studies, each by its number.
   const auto place = [](const Experiment& e) {
     const std::size_t dash = e.name.find('-');

@@ -21,9 +21,10 @@ struct Experiment {
   std::function<Findings(Workshop&)> make;
 };
 
-/// Those about databases and training, and those about scenes.
+/// Those about databases and training, those about scenes, and those about loads that no database has seen.
 std::vector<Experiment> database_experiments();
 std::vector<Experiment> scene_experiments();
+std::vector<Experiment> held_out_experiments();
 
 /// All, in the order of the publication.
 const std::vector<Experiment>& experiments();

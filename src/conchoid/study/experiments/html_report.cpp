@@ -81,7 +81,8 @@ std::string html_report(const StudyReport& report) {
       "<p>Huang, Yu &amp; Kanai, <i>Predicting Brittle Fracture Surface Shape From Versatile Database</i>. "
       "Published tables have a yellow ground, ours follow. Scale: {}. conchoid {}, g++ {}, {}, {} threads. "
       "Loads are "
-      "drawn from seeds that stand in the specifications of the databases; forests have seed 1.</p>\n",
+      "drawn from seeds that stand in the specifications of the databases, at the end; forests have seed "
+      "1.</p>\n",
       kStyle, name(report.scale), CONCHOID_VERSION, __VERSION__, escaped_text(processor()),
       std::thread::hardware_concurrency());
   out += "<ul>\n";
@@ -94,6 +95,10 @@ std::string html_report(const StudyReport& report) {
                        fmt::join(report.left_out, ", "));
   for (const Reproduction& made : report.made)
     out += experiment_html(made);
+  out += "<h2>Databases</h2>\n";
+  for (const std::string& text : report.specifications)
+    out +=
+        fmt::format("<details><summary>specification</summary><pre>{}</pre></details>\n", escaped_text(text));
   return out + "</body></html>\n";
 }
 

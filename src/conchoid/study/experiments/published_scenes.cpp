@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "conchoid/sim/database_spec.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -31,16 +33,18 @@ std::string traction(const std::string& region, double x, double y, double z) {
 }
 
 std::string free_run(int max_cracks) {
-  return fmt::format("[run]\nmax_cracks = {}\ninertia_relief = true\nafter_separation = 'stop'\n",
-                     max_cracks);
+  return fmt::format("[run]\nmax_cracks = {}\ninertia_relief = true\n", max_cracks);
 }
 
 std::string pulled_scene(const std::string& model, const std::string& pulled, const std::string& opposite,
                          double slope, const Variant& v) {
-  const double alpha = (slope + v.turned) * std::numbers::pi / 180, f = 1e8 * v.load;
-  const double x = f * std::sin(alpha), z = f * std::cos(alpha);
-  return body(model) + material(v) + resolution(0.1 * v.crack_edge, 0.02) + traction(pulled, x, 0, z) +
-         traction(opposite, -x, 0, -z) + free_run(1);
+  constexpr double degree = std::numbers::pi / 180;
+  const double alpha = (slope + v.turned) * degree, beta = v.rotation * degree, f = 1e8 * v.load;
+  const double x = f * std::sin(alpha) * std::cos(beta), y = f * std::sin(alpha) * std::sin(beta);
+  const double z = f * std::cos(alpha);
+  return body(model) + (v.remesh > 0 ? fmt::format("remesh = {}\n", v.remesh) : "") + material(v) +
+         resolution(0.1 * v.crack_edge, 0.02) + traction(pulled, x, y, z) + traction(opposite, -x, -y, -z) +
+         free_run(1);
 }
 
 struct Loads {
@@ -95,7 +99,7 @@ std::string cylinder_scene(double slope, const Variant& v) {
 }
 
 std::string bar_scene() {
-  return bar_body() + traction("load", 0, 0, -8e7) + "[run]\nafter_separation = 'stop'\n";
+  return bar_body() + traction("load", 0, 0, -8e7) + "[run]\nmax_cracks = 1\n";
 }
 
 std::string edge_crack_scene(int mode) {
@@ -107,7 +111,7 @@ std::string edge_crack_scene(int mode) {
 
 std::string armadillo_scene(const std::filesystem::path& file) {
   return armadillo_body(file) + traction("left hand", 1e6, 0, 0) + traction("right hand", -1e6, 0, 0) +
-         "[run]\nafter_separation = 'stop'\n";
+         "[run]\nmax_cracks = 1\n";
 }
 
 std::string cube_database(StudyScale scale, const Variant& v) {
@@ -166,6 +170,12 @@ std::string held_out_cubes(StudyScale scale, const Variant& v) {
                 .magnitude = kMagnitude,
                 .slope = "[0.0, 60.0]"},
                scale, v);
+}
+
+std::string held_out_scene(SceneOfLoad scene, int i) {
+  const DatabaseSpec spec = parse_database_spec(held_out_cubes(StudyScale::full), "held-out loads", "");
+  const DrawnLoad load = draw_load(spec, i);
+  return scene(load.slope, {.load = load.magnitude / 1e8, .rotation = load.rotation});
 }
 
 }  // namespace conchoid

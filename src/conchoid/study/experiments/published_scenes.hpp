@@ -17,7 +17,9 @@ struct Variant {
   bool noisy_toughness = false;  ///< K_c varies by ±40 % over a wavelength of 0.3 m
   double load = 1;               ///< factor on the load
   double turned = 0;             ///< of the load's slope [degree]
+  double rotation = 0;           ///< β of the load about the axis [degree]
   double crack_edge = 1;         ///< factor on r̄
+  int remesh = 0;                ///< triangles of another surface mesh; 0: the model's own
 };
 
 /// K_c at which the published loads are a few times what moves the fronts [Pa√m].
@@ -45,5 +47,9 @@ std::string armadillo_database(const std::filesystem::path& file, StudyScale sca
 std::string magnitude_database(StudyScale scale, const Variant& variant = {});
 /// Runs of the cube that no training sees: other seed, slopes to 60°.
 std::string held_out_cubes(StudyScale scale, const Variant& variant = {});
+
+/// Scene number `i` of the loads that no database has seen: those of held_out_cubes(), on cube or cylinder.
+using SceneOfLoad = std::string (*)(double slope, const Variant& variant);
+std::string held_out_scene(SceneOfLoad scene, int i);
 
 }  // namespace conchoid

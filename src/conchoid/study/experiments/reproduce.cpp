@@ -71,6 +71,7 @@ StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& wo
     made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_tables(made, workshop.folder() / "tables");
     report.made.push_back(std::move(made));
+    report.specifications = {workshop.specifications().begin(), workshop.specifications().end()};
     write_bytes(report.file, html_report(report));
     progress.advance();
   }

@@ -22,7 +22,8 @@ struct StudyReport {
   std::filesystem::path file;  ///< report.html
   StudyScale scale = StudyScale::smoke;
   std::vector<Reproduction> made;
-  std::vector<std::string> left_out;  ///< names of experiments that lack their scan
+  std::vector<std::string> left_out;        ///< names of experiments that lack their scan
+  std::vector<std::string> specifications;  ///< of the databases, with their seeds
 };
 
 /// Makes these experiments in a workshop and writes after each the report of those made so far, one page that needs nothing else,

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <fstream>
+#include <optional>
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/byte_cache.hpp"
@@ -70,6 +72,7 @@ Workshop::Workshop(fs::path folder, StudyScale scale, fs::path armadillo)
     : folder_(std::move(folder)), armadillo_(std::move(armadillo)), scale_(scale) {
   for (const char* part : {"cache", "figures", "tables"})
     make_folder(folder_ / part);
+  prepared_ = std::make_shared<const ByteCache>(folder_ / "cache" / "prepared");
 }
 
 fs::path Workshop::cached(const std::string& kind, const std::string& made_from) const {
@@ -77,15 +80,18 @@ fs::path Workshop::cached(const std::string& kind, const std::string& made_from)
 }
 
 const Database& Workshop::database(const std::string& text) {
+  specifications_.insert(text);
   const auto found = databases_.find(text);
   if (found != databases_.end()) return found->second;
   const fs::path file = cached("database", text).concat(".h5");
-  const DatabaseSpec spec = parse_database_spec(text, "experiment", folder_);
+  DatabaseSpec spec = parse_database_spec(text, "experiment", folder_);
+  spec.scene.run.cache = prepared_;
   generate_database(spec, {.out = file, .resume = true});
   return databases_.emplace(text, read_database(file)).first->second;
 }
 
 const TrainedForest& Workshop::forest(const std::string& database_text, const ForestChoice& choice) {
+  specifications_.insert(database_text);
   const std::string key =
       fmt::format("{}\n{} {} {} {}", database_text, choice.trees, choice.depth, choice.features, choice.seed);
   const auto found = forests_.find(key);
@@ -128,7 +134,10 @@ const RunData& Workshop::run(const std::string& text, const MethodChoice& method
     options.folder = folder;
     options.resume = true;
     options.progress = false;
-    const RunResult result = run_scene(parse_scene(scene_text(text, method), "experiment", folder_), options);
+    Scene scene = parse_scene(scene_text(text, method), "experiment", folder_);
+    scene.run.cache = prepared_;
+    if (method.method == "bem") prepare(scene);  // so that its time, too, is without preparing the body
+    const RunResult result = run_scene(scene, options);
     if (result.document.stop == StopReason::interrupted) throw Interrupted("interrupted");
   }
   return runs_.emplace(folder.string(), read_run(folder)).first->second;

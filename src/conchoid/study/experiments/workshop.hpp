@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
+#include <set>
 #include <string>
 
+#include "conchoid/core/byte_cache.hpp"
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/regressor.hpp"
@@ -61,6 +62,8 @@ class Workshop {
   const RunData& run(const std::string& text, const MethodChoice& method = {});
   /// Folder of that run, which has been made.
   std::filesystem::path run_folder(const std::string& text, const MethodChoice& method) const;
+  /// Specifications of the databases that were asked for, directly or for a forest.
+  const std::set<std::string>& specifications() const { return specifications_; }
   /// Where a picture is to be written.
   std::filesystem::path picture_file(const std::string& name) const;
 
@@ -69,6 +72,8 @@ class Workshop {
 
   std::filesystem::path folder_, armadillo_;
   StudyScale scale_;
+  std::shared_ptr<const ByteCache> prepared_;  // bodies
+  std::set<std::string> specifications_;
   std::map<std::string, Database> databases_;
   std::map<std::string, TrainedForest> forests_;
   std::map<std::string, RunData> runs_;
