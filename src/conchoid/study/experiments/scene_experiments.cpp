@@ -107,11 +107,12 @@ Findings table_3(Workshop& workshop) {
 Findings figure_5(Workshop& workshop) {
   Findings f = compared(workshop, "figure-5", cubes(), {by_cube(workshop)});
   const Variant near{.toughness = kNearToughness, .noisy_toughness = true};
+  std::vector<ComparedScene> scenes = {{"Cube 45", cube_scene(45, near)}};
+  if (workshop.full())
+    scenes.push_back({"Cube 45, load × 0.9",
+                      cube_scene(45, {.toughness = kNearToughness, .noisy_toughness = true, .load = 0.9})});
   f.tables.push_back(comparison_table(
-      workshop,
-      {{"Cube 45", cube_scene(45, near)},
-       {"Cube 45, load × 0.9",
-        cube_scene(45, {.toughness = kNearToughness, .noisy_toughness = true, .load = 0.9})}},
+      workshop, scenes,
       beside_baselines({by_forest(workshop, "RF(Cube, K_c raised)", cube_database(workshop.scale(), near)),
                         by_cube(workshop)})));
   f.tables.back().name = "comparison-near-toughness";
