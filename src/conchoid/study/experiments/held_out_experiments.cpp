@@ -95,7 +95,7 @@ Findings held_out(Workshop& workshop) {
     for (const MethodChoice& method : methods) {
       Errors errors;
       for (const std::string& text : scenes)
-        errors.add(compare(workshop.run(text), workshop.run(text, method)));
+        errors.add(compare(workshop.run(text), workshop.run(text, limited(workshop, text, method))));
       table.rows.push_back(errors_row(body.title, method.title, errors));
       progress.advance();
     }

@@ -18,9 +18,11 @@ MethodChoice solved() {
   return {.title = "BEM", .method = "bem"};
 }
 
-std::vector<MethodChoice> with_solved(const std::vector<MethodChoice>& methods) {
+std::vector<MethodChoice> with_solved(Workshop& workshop, const ComparedScene& scene,
+                                      const std::vector<MethodChoice>& methods) {
   std::vector<MethodChoice> all = {solved()};
-  all.insert(all.end(), methods.begin(), methods.end());
+  for (const MethodChoice& method : methods)
+    all.push_back(limited(workshop, scene.text, method));
   return all;
 }
 
@@ -83,6 +85,11 @@ std::vector<MethodChoice> baselines() {
   return methods;
 }
 
+MethodChoice limited(Workshop& workshop, const std::string& scene_text, MethodChoice method) {
+  if (method.method != "bem") method.frames = 2 * workshop.run(scene_text).document.frames + 4;
+  return method;
+}
+
 ReportTable comparison_table(Workshop& workshop, const std::vector<ComparedScene>& scenes,
                              const std::vector<MethodChoice>& methods) {
   ReportTable table{
@@ -112,7 +119,7 @@ ReportTable comparison_table(Workshop& workshop, const std::vector<ComparedScene
       progress.advance();
     }
     for (const MethodChoice& method : methods) {
-      const RunData& run = workshop.run(scene.text, method);
+      const RunData& run = workshop.run(scene.text, limited(workshop, scene.text, method));
       table.rows.push_back(metrics_row(scene.title, method.title, run, compare(bem, run)));
       progress.advance();
     }
@@ -127,7 +134,7 @@ ReportTable time_table(Workshop& workshop, const std::vector<ComparedScene>& sce
                     {"scene", "tri", "method", "total", "COD", "fracture", "other", "frames", "COD/frame"},
                     {}};
   for (const ComparedScene& scene : scenes)
-    for (const MethodChoice& method : with_solved(methods)) {
+    for (const MethodChoice& method : with_solved(workshop, scene, methods)) {
       const RunDocument& d = workshop.run(scene.text, method).document;
       table.rows.push_back({scene.title, fmt::format("{}→{}", d.initial_triangles, d.final_triangles),
                             method.title, number_text(d.total_seconds), number_text(d.opening_seconds),
@@ -148,7 +155,7 @@ std::vector<ReportPlot> intensity_plots(Workshop& workshop, const ComparedScene&
                     false,
                     true,
                     {}};
-    for (const MethodChoice& method : with_solved(methods)) {
+    for (const MethodChoice& method : with_solved(workshop, scene, methods)) {
       PlotSeries series{method.title, {}, method.solve_every > 0};
       for (const auto& [frame, average] : front_averages(workshop.run(scene.text, method).front))
         series.points.push_back({static_cast<double>(frame), average.intensity[static_cast<int>(mode)]});
@@ -170,7 +177,7 @@ std::vector<ReportPlot> front_plots(Workshop& workshop, const ComparedScene& sce
                       false,
                       {}};
   ReportPlot area{scene.title + ": area of the crack", "frame", "area, m²", false, false, {}};
-  for (const MethodChoice& method : with_solved(methods)) {
+  for (const MethodChoice& method : with_solved(workshop, scene, methods)) {
     const RunData& run = workshop.run(scene.text, method);
     PlotSeries apart{method.title, {}, method.solve_every > 0}, grown = apart;
     for (const FrameComparison& f : compare_frames(bem, run))
@@ -186,7 +193,7 @@ std::vector<ReportPlot> front_plots(Workshop& workshop, const ComparedScene& sce
 ReportPicture pieces_picture(Workshop& workshop, const std::string& name, const ComparedScene& scene,
                              const std::vector<MethodChoice>& methods) {
   std::vector<PicturePanel> panels;
-  for (const MethodChoice& method : with_solved(methods)) {
+  for (const MethodChoice& method : with_solved(workshop, scene, methods)) {
     const RunData& run = workshop.run(scene.text, method);
     panels.push_back(run_panel(run, workshop.run_folder(scene.text, method), {}));
     panels.back().title = method.title;
@@ -196,7 +203,8 @@ ReportPicture pieces_picture(Workshop& workshop, const std::string& name, const 
 }
 
 ReportPicture frames_picture(Workshop& workshop, const std::string& name, const ComparedScene& scene,
-                             const MethodChoice& method, int frames) {
+                             const MethodChoice& choice, int frames) {
+  const MethodChoice method = limited(workshop, scene.text, choice);
   const RunData& run = workshop.run(scene.text, method);
   const std::vector<PicturePanel> panels =
       frame_panels(run, workshop.run_folder(scene.text, method), frames, {});

@@ -19,6 +19,10 @@ struct ComparedScene {
 /// The closed forms that need no training, each alone and solved every 2nd and 3rd frame.
 std::vector<MethodChoice> baselines();
 
+/// The same method with a limit of 2 n + 4 frames, n those of boundary elements on that scene: a run that is lost
+/// cannot cost more than that, and ends at the frame limit. Everything below runs methods so.
+MethodChoice limited(Workshop& workshop, const std::string& scene_text, MethodChoice method);
+
 /// Boundary elements first, then every method: per scene and method a row with the metrics of
 /// conchoid::compare against boundary elements, frames, stop and times; a row per change of the scene that is
 /// solved by boundary elements is the noise floor.

@@ -52,8 +52,8 @@ bool finished(const fs::path& run_folder) {
 }
 
 std::string made_from(const std::string& text, const MethodChoice& method) {
-  return fmt::format("{}\n{}\n{}", scene_text(text, method), method.method,
-                     method.regressor ? method.regressor->content_hash() : 0);
+  return fmt::format("{}\n{}\n{}\n{}", scene_text(text, method), method.method,
+                     method.regressor ? method.regressor->content_hash() : 0, method.frames);
 }
 
 }  // namespace
@@ -131,6 +131,7 @@ const RunData& Workshop::run(const std::string& text, const MethodChoice& method
     RunOptions options;
     options.method = method.method;
     options.regressor = method.regressor;
+    if (method.frames > 0) options.frames = method.frames;
     options.folder = folder;
     options.resume = true;
     options.progress = false;

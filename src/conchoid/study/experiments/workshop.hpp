@@ -38,6 +38,7 @@ struct MethodChoice {
   std::string method = "bem";  ///< sim/methods.hpp
   int solve_every = 0;         ///< run.solve_every
   const Regressor* regressor = nullptr;
+  int frames = 0;  ///< most frames; 0: the scene's
 };
 
 /// Makes databases, forests and runs for experiments, each only once: everything is kept in a folder under a
