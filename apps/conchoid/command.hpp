@@ -50,6 +50,7 @@ void add_help_scene(CLI::App& program, Invocation& invocation);
 void add_materials(CLI::App& program, Invocation& invocation);
 void add_mesh(CLI::App& program, Invocation& invocation);
 void add_picture(CLI::App& program, Invocation& invocation);
+void add_reproduce(CLI::App& program, Invocation& invocation);
 void add_run(CLI::App& program, Invocation& invocation);
 void add_sif(CLI::App& program, Invocation& invocation);
 void add_stress(CLI::App& program, Invocation& invocation);

@@ -13,7 +13,7 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
-#include "conchoid/learn/database.hpp"
+#include "conchoid/learn/database_provenance.hpp"
 #include "conchoid/learn/evaluate.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/summary.hpp"
@@ -68,15 +68,6 @@ std::string regressor_text(const Regressor& regressor) {
     text += fmt::format("\n  {:<28} {:12.4e} … {:12.4e}", names[i], regressor.ranges()[i].minimum,
                         regressor.ranges()[i].maximum);
   return text;
-}
-
-Provenance provenance_of(const DatabaseHeader& header) {
-  Provenance provenance;
-  provenance.models = header.models;
-  provenance.material = header.material;
-  provenance.resolution = header.resolution;
-  provenance.spec = header.spec;
-  return provenance;
 }
 
 void train(ForestOptions options, const CommonOptions& common) {

@@ -59,6 +59,7 @@ int run_program(int argc, char** argv) {
   add_picture(program, invocation);
   add_database(program, invocation);
   add_forest(program, invocation);
+  add_reproduce(program, invocation);
   add_materials(program, invocation);
   add_help_scene(program, invocation);
   add_help(program, invocation);

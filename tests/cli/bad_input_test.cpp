@@ -451,6 +451,12 @@ const std::vector<BadInput> kBadInputs = {
      },
      {"compare", "a", "a"},
      {"run.json"}},
+    {"reproduce_unknown",
+     nothing,
+     {"reproduce", "table-1", "table-9", "--out", "out/study"},
+     {"table-9", "figure-13", "tree-study"}},
+    {"reproduce_nowhere", nothing, {"reproduce", "table-1"}, {"--out"}},
+    {"reproduce_without_scan", nothing, {"reproduce", "figure-12", "--out", "out/study"}, {"--armadillo"}},
     {"picture_of_nothing", nothing, {"picture", "a", "--out", "out/a.png"}, {"a"}},
     {"picture_not_png", nothing, {"picture", "a", "--out", "out/a.jpg"}, {".png"}},
 };

@@ -63,6 +63,7 @@ TEST(Help, EverySubCommandExplainsItself) {
                                                           {"mesh"},
                                                           {"check"},
                                                           {"compare"},
+                                                          {"reproduce"},
                                                           {"picture"},
                                                           {"help-scene"},
                                                           {"database", "generate"},

@@ -69,6 +69,17 @@ TEST(DatabaseSpec, ARunIsTheSameWhateverTheNumberOfRuns) {
   EXPECT_NE(draw_load(few, 1).direction, draw_load(parse(kCommon + "seed = 2\n"), 1).direction);
 }
 
+TEST(DatabaseSpec, ALoadOnOneRegionAloneHasNoOpposite) {
+  std::string text = kCommon;
+  text.replace(text.find("[\"z+\", \"z-\"]"), 12, "[\"z+\"]");
+  text.insert(text.find("[database]"), "[[boundary]]\nregion = \"z-\"\nfixed = true\n");
+  const DatabaseSpec spec = parse(text);
+  const Scene scene = loaded_scene(spec, draw_load(spec, 3));
+  ASSERT_EQ(scene.boundary.size(), 2u);
+  EXPECT_EQ(scene.boundary[1].region, "z+");
+  EXPECT_FALSE(scene.run.inertia_relief);
+}
+
 TEST(DatabaseSpec, TheLoadIsMirroredAndBalancedByInertia) {
   const DatabaseSpec spec = parse(kCommon);
   const DrawnLoad load = draw_load(spec, 3);

@@ -59,8 +59,9 @@ TEST(Methods, EveryKindOfRegressorIsOne) {
   for (const RegressorKind& kind : regressor_kinds())
     EXPECT_EQ(opening_method(kind.name).regressor, kind.name);
   EXPECT_TRUE(opening_method("bem").regressor.empty());
-  EXPECT_TRUE(opening_method("steady").regressor.empty());
-  EXPECT_EQ(opening_methods().size(), 2 + regressor_kinds().size());
+  for (const char* closed : {"steady", "kept", "stress"})
+    EXPECT_TRUE(opening_method(closed).regressor.empty());
+  EXPECT_EQ(opening_methods().size(), 4 + regressor_kinds().size());
   ASSERT_EQ(baseline_predictors().size(), 1u);
   EXPECT_EQ(baseline_predictors()[0]->name(), "steady");
   EXPECT_EQ(find_opening_method("magic"), nullptr);

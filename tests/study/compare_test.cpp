@@ -198,6 +198,114 @@ TEST(Compare, SameNumbersForEveryThreadCountAndForTwiceTheSize) {
   EXPECT_EQ(large.largest_fragment_iou, small.largest_fragment_iou);
 }
 
+namespace {
+
+/// A crack that grows as a half disc about the middle of the edge x = −½, the front at `step` × frame, tilted
+/// by `tilt` about y; kink angles all `kink`.
+RunData half_disc(int frames, double step, double tilt, double kink) {
+  RunData run = run_of(0, frames, 1e6);
+  run.front.clear();
+  run.document.timings.clear();
+  constexpr int points = 40;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double r = step * frame;
+    for (int i = 0; i <= points; ++i) {
+      const double phi = (i - points / 2.0) / points * 3.0;
+      FrontRow row;
+      row.frame = frame;
+      row.node = i;
+      const double x = r * std::cos(phi);
+      row.position = {-0.5 + x * std::cos(tilt), r * std::sin(phi), x * std::sin(tilt)};
+      row.intensity = Vec3(2e6, 0, 0);
+      row.speed = 1;
+      row.kink_angle = kink;
+      run.front.push_back(row);
+    }
+    FrameRecord record;
+    record.frame = frame;
+    record.crack_area = 1.5 * r * r;
+    run.document.timings.push_back(record);
+  }
+  return run;
+}
+
+}  // namespace
+
+TEST(Compare, OverTheCracksOwnDiagonal) {
+  RunData small = run_of(0, 5, 1e6), moved_up = run_of(0.1, 5, 1e6);
+  for (RunData* run : {&small, &moved_up})
+    for (Vec3& x : run->crack.positions)
+      x.head<2>() *= 0.1;
+  const Comparison c = compare(small, moved_up);
+  EXPECT_NEAR(c.surface_mean, 0.1, 1e-12);
+  EXPECT_NEAR(c.crack_diagonal, 0.1 * std::sqrt(2.0), 1e-12);
+  RunData none = small;
+  none.crack = {};
+  EXPECT_NEAR(compare(none, small).crack_diagonal, 0.1 * std::sqrt(2.0), 1e-12);
+  EXPECT_TRUE(std::isnan(compare(none, none).crack_diagonal));
+}
+
+// The front of the faster run lies ahead by the difference of the radii, in every frame that both have.
+TEST(Compare, FrontsAndAreaOverFrames) {
+  const Comparison c = compare(half_disc(4, 0.1, 0, 0.1), half_disc(6, 0.12, 0, 0.15));
+  ASSERT_EQ(c.history.size(), 4u);
+  double mean = 0;
+  for (const FrameComparison& f : c.history) {
+    EXPECT_NEAR(f.front_distance, 0.02 * f.frame, 2e-4 * f.frame);
+    EXPECT_DOUBLE_EQ(f.crack_area[1] / f.crack_area[0], 1.44);
+    EXPECT_EQ(f.intensity[0][0], 2e6);
+    EXPECT_NEAR(f.kink_angle, 0.05, 1e-12);
+    mean += f.front_distance / 4;
+  }
+  EXPECT_DOUBLE_EQ(c.front_distance, mean);
+  EXPECT_NEAR(c.kink_angle_error, 0.05, 1e-12);
+}
+
+// Two fronts of the same radius in planes that include an angle: the ends meet, the middle is apart by
+// 2 r sin(angle/2).
+TEST(Compare, TurnedFront) {
+  const double angle = 0.2;
+  const Comparison c = compare(half_disc(3, 0.1, 0, 0), half_disc(3, 0.1, angle, 0));
+  for (const FrameComparison& f : c.history) {
+    const double r = 0.1 * f.frame, chord = 2 * r * std::sin(angle / 2);
+    EXPECT_LT(f.front_distance, chord);
+    EXPECT_GT(f.front_distance, 0.5 * chord);
+  }
+  EXPECT_EQ(c.kink_angle_error, 0);
+}
+
+TEST(Compare, PointsThatStayHaveNoKink) {
+  RunData a = half_disc(2, 0.1, 0, 0.3), b = half_disc(2, 0.1, 0, 0);
+  for (FrontRow& row : b.front)
+    row.speed = 0;
+  EXPECT_TRUE(std::isnan(compare(a, b).kink_angle_error));
+  b.front.clear();
+  EXPECT_TRUE(compare(a, b).history.empty());
+  EXPECT_TRUE(std::isnan(compare(a, b).front_distance));
+}
+
+TEST(Compare, StopVolumesAndChamferOfTheFragments) {
+  RunData a = run_of(0, 5, 1e6), b = run_of(0.1, 6, 1e6);
+  a.document.stop = StopReason::separated;
+  b.document.stop = StopReason::arrested;
+  const Comparison c = compare(a, b);
+  EXPECT_EQ(c.stop[0], StopReason::separated);
+  EXPECT_EQ(c.stop[1], StopReason::arrested);
+  ASSERT_EQ(c.volumes[1].size(), 2u);
+  EXPECT_NEAR(c.volumes[1][0], 0.6, 1e-12);
+  EXPECT_NEAR(c.volume_error, 0.2, 1e-12);
+  // Per pair a face of a share of 1/4 … 1/3 of the surface is 0.1 apart, and strips of the sides up to that.
+  EXPECT_GT(c.fragment_chamfer, 0.1 / 5);
+  EXPECT_LT(c.fragment_chamfer, 0.1 / 2);
+  EXPECT_EQ(compare(a, a).fragment_chamfer, 0);
+  EXPECT_EQ(compare(a, a).volume_error, 0);
+  RunData whole = a;
+  whole.fragments.clear();
+  whole.document.fragments.clear();
+  EXPECT_TRUE(std::isnan(compare(a, whole).fragment_chamfer));
+  EXPECT_TRUE(std::isnan(compare(a, whole).volume_error));
+}
+
 TEST(Compare, RunFoldersAndJson) {
   const TemporaryFolder scratch;
   for (const auto& [name, run] : {std::pair("a", run_of(0, 5, 1e6)), std::pair("b", run_of(0.1, 6, 1e6))}) {
@@ -213,5 +321,12 @@ TEST(Compare, RunFoldersAndJson) {
   EXPECT_EQ(json["frames"], nlohmann::json({5, 6}));
   EXPECT_NEAR(json["surface_mean"].get<double>(), 0.1, 1e-12);
   EXPECT_TRUE(json["sif_log_error"]["III"].is_null());
+  EXPECT_EQ(json["history"].size(), 5u);
+  EXPECT_EQ(json["history"][0]["K"].size(), 2u);
+  EXPECT_TRUE(json["history"][0]["crack_area"][0].is_null());
+  EXPECT_TRUE(json["kink_angle_error"].is_null());
+  EXPECT_EQ(json["stop"].size(), 2u);
+  for (const char* key : {"crack_diagonal", "front_distance", "volumes", "volume_error", "fragment_chamfer"})
+    EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_THROW(compare_runs(scratch / "a", scratch / "c"), InputError);
 }

@@ -47,6 +47,7 @@ Json to_json(const FrameRecord& f) {
   out["source"] = f.source;
   out["crack_triangles"] = f.crack_triangles;
   out["front_nodes"] = f.front_nodes;
+  out["crack_area"] = f.crack_area;
   out["max_K_eff"] = f.max_K_eff;
   out["seconds"] = {
       {"opening", f.opening_seconds}, {"fracture", f.fracture_seconds}, {"other", f.other_seconds}};
@@ -110,6 +111,7 @@ FrameRecord frame_from(const Json& json) {
   f.source = json.at("source").get<std::string>();
   f.crack_triangles = json.at("crack_triangles").get<std::size_t>();
   f.front_nodes = json.at("front_nodes").get<std::size_t>();
+  f.crack_area = json.value("crack_area", 0.0);
   f.max_K_eff = number(json.at("max_K_eff"));
   const Json& seconds = json.at("seconds");
   f.opening_seconds = number(seconds.at("opening"));

@@ -25,6 +25,8 @@ struct FrameRecord {
       source;  ///< who gave the opening: a method (sim/methods.hpp) or "carried" (nothing could be solved)
   std::size_t crack_triangles = 0;  ///< BEM crack triangles after the frame
   std::size_t front_nodes = 0;
+  double crack_area =
+      0;  ///< of the BEM cracks after the frame [m²], of the body that breaks; 0: not recorded
   double max_K_eff = 0;  ///< largest effective intensity along the fronts [Pa √m]
   double opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
 };

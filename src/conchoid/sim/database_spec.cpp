@@ -26,6 +26,12 @@ std::array<double, 2> read_interval(const TomlTable& table, std::string_view key
 void read_loaded_regions(const TomlTable& table, DatabaseSpec& spec) {
   std::vector<std::string> names;
   table.require("regions", names);
+  if (names.empty() || names.size() > 2)
+    table.fail(
+        "regions",
+        fmt::format("database.regions holds {} names; give the pulled region, and the one that gets the "
+                    "opposite traction if there is one",
+                    names.size()));
   for (const std::string& name : names) {
     require_region(spec.scene, name, table, "regions");
     for (const BoundaryCondition& condition : spec.scene.boundary)
@@ -35,11 +41,12 @@ void read_loaded_regions(const TomlTable& table, DatabaseSpec& spec) {
                                "region",
                                name, condition.where));
   }
+  spec.pulled = names[0];
+  if (names.size() == 1) return;
   if (names[0] == names[1])
     table.fail(
         "regions",
         fmt::format("the region \"{}\" is given twice; the loads would cancel, name two regions", names[0]));
-  spec.pulled = names[0];
   spec.opposite = names[1];
 }
 
@@ -112,8 +119,9 @@ Scene loaded_scene(const DatabaseSpec& spec, const DrawnLoad& load) {
   const std::string where = scene.file + ": [database]";
   scene.boundary.push_back(
       {.region = spec.pulled, .kind = ConditionKind::traction, .value = traction, .where = where});
-  scene.boundary.push_back(
-      {.region = spec.opposite, .kind = ConditionKind::traction, .value = -traction, .where = where});
+  if (!spec.opposite.empty())
+    scene.boundary.push_back(
+        {.region = spec.opposite, .kind = ConditionKind::traction, .value = -traction, .where = where});
   return scene;
 }
 

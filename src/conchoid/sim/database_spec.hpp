@@ -8,14 +8,14 @@
 namespace conchoid {
 
 /// What the runs of a database have in common, and how their loads are drawn: a traction f on one region and
-/// −f on another, |f| and the direction at random. The direction has the slope α to the pole of a hemisphere
+/// −f on another (or none: then conditions of the scene hold the body), |f| and the direction at random. The direction has the slope α to the pole of a hemisphere
 /// and the rotation β about it, f = |f| (sin α cos β e1 + sin α sin β e2 + cos α pole), e1 along the
 /// coordinate axis after the one the pole is nearest to (x for z), e2 = pole × e1.
 struct DatabaseSpec {
   Scene scene;  ///< without the drawn loads; its text is the whole specification
   int runs = 300;
   std::uint64_t seed = 1;
-  std::string pulled, opposite;            ///< regions
+  std::string pulled, opposite;            ///< regions; the second may be empty: none
   Vec3 pole = Vec3::UnitZ();               ///< unit vector
   std::array<double, 2> magnitude{};       ///< [Pa]
   std::array<double, 2> slope{0, 90};      ///< α [degree]

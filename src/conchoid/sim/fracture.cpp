@@ -126,7 +126,9 @@ struct Fracture::State {
   double part_volume = 0;                              // of what has come off when it was not cut [m³]
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
-  bool solved() const { return !predictor && carried == 0; }
+  bool solved() const { return predictor ? predictor->solved() : carried == 0; }
+  // A prediction knows nothing of cracks that start later, unless it is solved now and then.
+  bool may_start_cracks() const { return solved() && (!predictor || settings.solve_every > 0); }
   TriMesh swept_surface() const;
   const std::vector<TriMesh>& visible_sheets() const;
   std::vector<TriMesh> unfold_visible_sheets() const;
@@ -267,9 +269,10 @@ void Fracture::State::start(StepReport& report) {
 
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
-  report.source = predictor && !first(report.frame) ? predictor->name() : bem.name();
+  report.source = bem.name();
   if (predictor) {
     openings = predictor->open(crack);
+    if (!predictor->solved()) report.source = predictor->name();
     return;
   }
   try {
@@ -343,7 +346,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     return;
   }
   const std::size_t fronts_before = crack.sheet.fronts.size();
-  if (solved()) start_cracks(report);
+  if (may_start_cracks()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
   const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
   if (!steps.empty()) {
@@ -445,7 +448,7 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
   return state_->decisions;
 }
 bool Fracture::solved() const {
-  return state_->predictor ? state_->first(state_->frame) : state_->solved();
+  return state_->solved();
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();

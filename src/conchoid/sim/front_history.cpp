@@ -36,7 +36,8 @@ void FrontHistory::remember(const CrackState& crack, const std::vector<FrontOpen
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& p = crack.points[i];
     if (!openings[i].known) continue;
-    entries_[p.node] = {p.frame, openings[i].node_intensity, p.distance, crack.sheet.frame};
+    entries_[p.node] = {p.frame, openings[i].node_intensity, p.distance, crack.sheet.frame,
+                        openings[i].intensity};
   }
 }
 

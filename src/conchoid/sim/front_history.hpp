@@ -31,6 +31,7 @@ class FrontHistory {
     Vec3 intensity;   ///< K from the opening of its own correlation node
     double distance;  ///< of that node
     int seen;         ///< frame of the sheet
+    Vec3 driving;     ///< K that moved it
   };
   const Entry* find(NodeId node) const;
   /// Remembers the points as they are now, but for those of which nothing is known.

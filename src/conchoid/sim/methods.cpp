@@ -4,12 +4,13 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
+#include "conchoid/sim/stress_opening.hpp"
 
 namespace conchoid {
 namespace {
 
 std::unique_ptr<OpeningSource> predicted_by(const OpeningPredictor& predictor, const MethodContext& c) {
-  return std::make_unique<PredictedOpening>(c.bem, predictor, c.material, c.body, c.sif);
+  return std::make_unique<OpeningByPredictor>(c.prediction, predictor);
 }
 
 OpeningMethod regressor_method(const RegressorKind& kind) {
@@ -35,6 +36,20 @@ std::vector<OpeningMethod> list_methods() {
                      .regressor = "",
                      .baseline = &steady_predictor(),
                      .make = [](const MethodContext& c) { return predicted_by(steady_predictor(), c); }});
+  methods.push_back(
+      {.name = "kept",
+       .title = "predicted, K stays as it is in the front's frame",
+       .help = "solves frame 1, then keeps K as it is in the front's own frame",
+       .regressor = "",
+       .baseline = nullptr,
+       .make = [](const MethodContext& c) { return std::make_unique<KeptOpening>(c.prediction); }});
+  methods.push_back(
+      {.name = "stress",
+       .title = "predicted from the stress of the uncracked body",
+       .help = "solves frame 1, then estimates K from the stress of the uncracked body and the crack's size",
+       .regressor = "",
+       .baseline = nullptr,
+       .make = [](const MethodContext& c) { return std::make_unique<StressOpening>(c.prediction); }});
   for (const RegressorKind& kind : regressor_kinds())
     methods.push_back(regressor_method(kind));
   return methods;

@@ -7,16 +7,13 @@
 #include <vector>
 
 #include "conchoid/learn/regressor.hpp"
-#include "conchoid/sim/opening_source.hpp"
+#include "conchoid/sim/predicted_opening.hpp"
 
 namespace conchoid {
 
 /// What a source of opening is made from. All of it must outlive the source.
 struct MethodContext {
-  BemOpening& bem;
-  const MaterialSpec& material;
-  const PreparedBody& body;
-  SifSettings sif;
+  PredictionContext prediction;
   const Regressor* regressor = nullptr;
 };
 
@@ -32,7 +29,7 @@ struct OpeningMethod {
   std::function<std::unique_ptr<OpeningSource>(const MethodContext&)> make;
 };
 
-/// bem, steady, and one for every kind of regressor.
+/// bem, steady, kept, stress, and one for every kind of regressor.
 const std::vector<OpeningMethod>& opening_methods();
 /// Throws InputError that lists the known names.
 const OpeningMethod& opening_method(std::string_view name);

@@ -7,7 +7,6 @@
 #include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
 #include "conchoid/crack/law/growth_law.hpp"
-#include "conchoid/learn/opening_predictor.hpp"
 #include "conchoid/sim/crack_state.hpp"
 #include "conchoid/sim/front_history.hpp"
 #include "conchoid/sim/prepared_body.hpp"
@@ -33,6 +32,8 @@ class OpeningSource {
   virtual std::string name() const = 0;
   /// Opening and K at every point of the crack as it stands, in the order of crack.points.
   virtual std::vector<FrontOpening> open(const CrackState& crack) = 0;
+  /// Whether the last open() solved the boundary elements for the crack as it stood.
+  virtual bool solved() const = 0;
 };
 
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
@@ -41,8 +42,14 @@ class BemOpening : public OpeningSource {
   BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif);
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
+  bool solved() const override { return true; }
   /// Replaces the load; counts from the next solve() or open() on.
-  void set_load(LoadCase load) { body_.set_load(std::move(load)); }
+  void set_load(LoadCase load) {
+    body_.set_load(std::move(load));
+    ++loads_;
+  }
+  /// How often the load was replaced.
+  std::size_t loads() const { return loads_; }
   /// The body as it was last solved.
   const CrackedBody& body() const { return body_; }
   /// Where the rows of the cracks are kept (bem/row_store.hpp); must outlive the source.
@@ -54,29 +61,7 @@ class BemOpening : public OpeningSource {
   CrackedBody body_;
   ElasticConstants m_;
   SifSettings sif_;
-};
-
-/// Frame 1 by boundary elements, then predicted: the opening of each point follows from the K which its
-/// correlation node had when it was on the front. Linear in the number of front points.
-class PredictedOpening : public OpeningSource {
- public:
-  /// @param predictor  a regressor or a closed form; must outlive the source, as `first` must
-  PredictedOpening(BemOpening& first, const OpeningPredictor& predictor, const MaterialSpec& material,
-                   const PreparedBody& body, const SifSettings& sif)
-      : first_(first),
-        predictor_(predictor),
-        sif_(sif),
-        history_(material, body.toughness, body.crack_edge) {}
-  std::string name() const override { return std::string(predictor_.name()); }
-  std::vector<FrontOpening> open(const CrackState& crack) override;
-
- private:
-  std::vector<FrontOpening> predict(const CrackState& crack) const;
-
-  BemOpening& first_;
-  const OpeningPredictor& predictor_;
-  SifSettings sif_;
-  FrontHistory history_;
+  std::size_t loads_ = 0;
 };
 
 /// Where nothing can be solved any more, as a piece hangs by a ligament too thin for the elements: each point

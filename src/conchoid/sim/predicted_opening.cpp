@@ -1,25 +1,56 @@
+#include "conchoid/sim/predicted_opening.hpp"
+
+#include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/sim/front_gaps.hpp"
-#include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
-namespace {
+PredictedOpening::PredictedOpening(const PredictionContext& c)
+    : bem_(c.bem),
+      sif_(c.sif),
+      material_(c.material.elastic()),
+      solve_every_(c.solve_every),
+      history_(c.material, c.body.toughness, c.body.crack_edge) {}
 
-Vec3 in_world(const FrontFrame& f, const Vec3& v) {
-  return v[0] * f.e1 + v[1] * f.e2 + v[2] * f.e3;
+bool PredictedOpening::solve(const CrackState& crack, std::vector<FrontOpening>& out) {
+  const int frame = crack.sheet.frame;  // 0 for the first
+  if (frame > 0 && (solve_every_ == 0 || frame % solve_every_ != 0)) return false;
+  try {
+    out = bem_.open(crack);
+    return true;
+  } catch (const SingularSystem&) {
+    if (frame == 0) throw;
+    return false;
+  }
 }
 
-}  // namespace
+std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
+  std::vector<FrontOpening> out;
+  solved_ = solve(crack, out);
+  if (!solved_) {
+    out = predict(crack);
+    fill_gaps(point_chains(crack), out);
+  }
+  history_.remember(crack, out);
+  return out;
+}
 
-std::vector<FrontOpening> PredictedOpening::predict(const CrackState& crack) const {
+void PredictedOpening::set_intensity(const FrontPoint& point, const Vec3& K, FrontOpening& out) const {
+  out.intensity = out.node_intensity = K;
+  if (point.distance > 0)
+    out.opening =
+        in_world(point.frame, opening_from_intensity(K, point.distance, material_, sif_.convention));
+}
+
+std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
   SampleSet samples;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const FrontPoint& point = crack.points[i];
-    if (const FrontHistory::Entry* still = history_.find(point.node)) {  // it did not move: nothing changes
+    if (const FrontHistory::Entry* still = history().find(point.node)) {  // it did not move: nothing changes
       out[i].intensity = out[i].node_intensity = still->intensity;
-    } else if (const auto sample = history_.sample(crack, point)) {
+    } else if (const auto sample = history().sample(crack, point)) {
       samples.add(*sample);
       asked.push_back(i);
     } else {
@@ -30,25 +61,25 @@ std::vector<FrontOpening> PredictedOpening::predict(const CrackState& crack) con
   const std::vector<OpeningPrediction> predictions = predictor_.predict_openings(samples);
   for (std::size_t p = 0; p < predictions.size(); ++p) {
     const FrontPoint& point = crack.points[asked[p]];
-    const Sample s = samples[p];
     FrontOpening& o = out[asked[p]];
-    o.opening = in_world(history_.find(point.correlation)->frame, predictions[p].opening);
-    o.intensity = o.node_intensity = stress_intensity(in_frame(point.frame, o.opening), point.distance,
-                                                      {s.youngs_modulus, s.poisson_ratio}, sif_.convention);
+    o.opening = in_world(history().find(point.correlation)->frame, predictions[p].opening);
+    o.intensity = o.node_intensity =
+        stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
     o.in_range = predictions[p].in_range;
   }
   return out;
 }
 
-std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
-  std::vector<FrontOpening> out;
-  if (crack.sheet.frame == 0) {
-    out = first_.open(crack);
-  } else {
-    out = predict(crack);
-    fill_gaps(point_chains(crack), out);
+std::vector<FrontOpening> KeptOpening::predict(const CrackState& crack) const {
+  std::vector<FrontOpening> out(crack.points.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const FrontPoint& point = crack.points[i];
+    const FrontHistory::Entry* last = history().find(point.node);
+    if (!last && point.correlation.valid()) last = history().find(point.correlation);
+    out[i].known = last != nullptr;
+    if (!last) continue;
+    set_intensity(point, last->driving, out[i]);
   }
-  history_.remember(crack, out);
   return out;
 }
 

@@ -55,6 +55,7 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
        std::string(scene.run.after_separation == AfterSeparation::stop ? "stop" : "continue")},
       {"run.smallest_body", scene.run.smallest_body},
       {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
+      {"run.solve_every", static_cast<std::int64_t>(scene.run.solve_every)},
       {"run.solver", scene.run.solver},
       {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
@@ -119,6 +120,7 @@ class ReportWriter : public FractureObserver {
     record.source = step.source;
     record.crack_triangles = step.crack_triangles;
     record.front_nodes = step.front_points;
+    record.crack_area = surface_area(fracture.crack().trimmed);
     record.max_K_eff = step.largest_intensity;
     record.opening_seconds = step.opening_seconds;
     record.fracture_seconds = step.fracture_seconds;
@@ -154,7 +156,8 @@ BreakupSettings breakup_settings(const Scene& scene, const RunOptions& options, 
   if (!options.fragments) settings.after = BreakupSettings::After::stop;
   settings.source = [&scene, &options, &method](const PreparedBody& body) -> MakeOpeningSource {
     return [&](BemOpening& bem) {
-      return method.make({bem, body.material, body, sif_settings(scene.run), options.regressor});
+      return method.make(
+          {{bem, body.material, body, sif_settings(scene.run), scene.run.solve_every}, options.regressor});
     };
   };
   return settings;

@@ -80,7 +80,7 @@ void add(ContentHash& hash, const RunSpec& run) {
   hash.add(static_cast<std::uint64_t>(run.max_cracks));
   hash.add(run.seed);
   hash.add(std::array{static_cast<double>(run.max_cracks_per_frame), run.smallest_body, run.smallest_fragment,
-                      static_cast<double>(run.max_fragments)});
+                      static_cast<double>(run.max_fragments), static_cast<double>(run.solve_every)});
   for (const bool choice :
        {run.inertia_relief, run.contact, run.published_compression, run.exact_rayleigh_speed,
         run.sif == SifSource::one_point, run.sif_convention == OpeningConvention::half,

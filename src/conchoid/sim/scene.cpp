@@ -189,6 +189,7 @@ RunSpec read_run(const TomlTable& file) {
   table->read("quadrature_tolerance", run.quadrature_tolerance);
   table->read("smallest_fragment", run.smallest_fragment);
   table->read("max_fragments", run.max_fragments);
+  table->read("solve_every", run.solve_every);
   std::string sif = "two-point", convention = "full-opening", rayleigh = "exact", compression = "closed",
               after = "continue";
   table->read("sif", sif);

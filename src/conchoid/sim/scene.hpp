@@ -121,6 +121,7 @@ struct RunSpec {
   std::string solver = "dense";  ///< of the body (bem/body_solver.hpp); no key of the scene, answers agree
   std::shared_ptr<const ByteCache> cache;  ///< of prepared bodies; no key of the scene
   bool exact_rayleigh_speed = true;
+  int solve_every = 0;  ///< where openings are predicted: every Nth frame is solved; 0: frame 1 alone
   double smallest_fragment = 1e-4;  ///< share of the body's volume
   int max_fragments = 0;            ///< 0: no limit
 };

@@ -51,7 +51,7 @@ const std::vector<SettingTable>& setting_tables() {
       {"run", false, true, "How the simulation is run."},
       {"output", false, true, "What the pieces are written as, and how they look."},
       {"database", false, false,
-       "How the loads of the runs are drawn: a traction on one region, and its opposite on another."},
+       "How the loads of the runs are drawn: a traction on one region, and mostly its opposite on another."},
   };
   return tables;
 }
@@ -405,6 +405,11 @@ const std::vector<Setting>& settings() {
        "the smallest pieces are joined to the neighbour with which they share the most fracture area until "
        "there are so few, and with so many the run ends; 0: all stay",
        between(0, 1e6)},
+      {"run", "solve_every", integer, "frames", "0",
+       "methods that predict (--method) solve frames 1, 1 + N, 1 + 2N … and predict the others; 0: they "
+       "solve "
+       "frame 1 alone",
+       between(0, 100000)},
 
       {"output",
        "formats",
@@ -441,14 +446,9 @@ const std::vector<Setting>& settings() {
       {"database", "runs", integer, "runs", "300", "number of runs", between(1, 10000000)},
       {"database", "seed", integer, "", "1", "of the loads; run i is the same whatever the number of runs",
        between(0, 9007199254740992.0)},
-      {"database",
-       "regions",
-       texts,
-       "",
-       "",
-       "the pulled region, and the one that gets the opposite traction; required",
-       {},
-       2},
+      {"database", "regions", texts, "", "",
+       "the pulled region, and the one that gets the opposite traction, or none where conditions of the "
+       "scene hold the body; required"},
       {"database",
        "direction",
        numbers,

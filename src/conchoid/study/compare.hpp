@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/io/run_folder.hpp"
+#include "conchoid/study/frame_history.hpp"
 
 namespace conchoid {
 
@@ -21,6 +21,14 @@ struct Comparison {
   double largest_fragment_iou =
       0;                  ///< intersection over union of the largest fragments, see largest_fragment_overlap
   bool same_body = true;  ///< the bounding boxes of the bodies agree
+  double crack_diagonal = 0;  ///< of the bounding box of a's crack surface, or b's where a has none [m]
+  std::array<StopReason, 2> stop{StopReason::intact, StopReason::intact};
+  double front_distance = 0;    ///< mean of FrameComparison::front_distance over the frames both have [m]
+  double kink_angle_error = 0;  ///< root mean square of FrameComparison::kink_angle over these frames [rad]
+  std::array<std::vector<double>, 2> volumes;  ///< of the fragments, largest first [m³]
+  double volume_error = 0;  ///< Σ|V_a − V_b| over the fragments by rank, over Σ V_a; missing ones are empty
+  double fragment_chamfer = 0;  ///< see conchoid::fragment_chamfer [m]
+  std::vector<FrameComparison> history;
 };
 
 /// How much the stress intensities of two runs differ: per mode the mean over the frames both have of |ln(K̄_a
@@ -29,6 +37,12 @@ struct Comparison {
 /// there; where it does so in one run, that share counts as its K̄. NaN for a mode that plays no part in any
 /// frame.
 Vec3 sif_log_error(const std::vector<FrontRow>& a, const std::vector<FrontRow>& b);
+
+/// Chamfer distance between fragments: each is paired with the one of the other run that it overlaps best; of
+/// the two surfaces the mean distance of points of one from the other, both directions averaged [m]. Mean over
+/// the fragments of both runs, weighted by volume. NaN where one of the runs has no fragments. (The sum of both
+/// directions, as learned shape predictors report it, is twice this.)
+double fragment_chamfer(const std::vector<Fragment>& a, const std::vector<Fragment>& b);
 
 Comparison compare(const RunData& a, const RunData& b);
 

@@ -46,5 +46,9 @@ inline std::size_t edge_count(std::size_t n, bool closed) {
 inline Vec3 in_frame(const FrontFrame& frame, const Vec3& v) {
   return {v.dot(frame.e1), v.dot(frame.e2), v.dot(frame.e3)};
 }
+/// Its inverse: the vector whose components they are.
+inline Vec3 in_world(const FrontFrame& frame, const Vec3& components) {
+  return components[0] * frame.e1 + components[1] * frame.e2 + components[2] * frame.e3;
+}
 
 }  // namespace conchoid

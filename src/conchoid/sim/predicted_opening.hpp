@@ -1,0 +1,72 @@
+#pragma once
+
+#include "conchoid/learn/opening_predictor.hpp"
+#include "conchoid/sim/opening_source.hpp"
+
+namespace conchoid {
+
+/// What predicted openings start from. All of it must outlive the source.
+struct PredictionContext {
+  BemOpening& bem;
+  const MaterialSpec& material;
+  const PreparedBody& body;
+  SifSettings sif;
+  int solve_every = 0;  ///< N: frames 1, 1 + N, 1 + 2N … are solved; 0: frame 1 alone
+};
+
+/// Frame 1 by boundary elements, and every Nth after it where that is asked for; the others are predicted. A
+/// later frame that cannot be solved (SingularSystem) is predicted, too.
+class PredictedOpening : public OpeningSource {
+ public:
+  std::vector<FrontOpening> open(const CrackState& crack) final;
+  bool solved() const final { return solved_; }
+
+ protected:
+  explicit PredictedOpening(const PredictionContext& context);
+  /// Opening and K at every point, as open(); points of which nothing is known are marked.
+  virtual std::vector<FrontOpening> predict(const CrackState& crack) const = 0;
+  /// What front nodes were like when they were last on the front.
+  const FrontHistory& history() const { return history_; }
+  /// K of a point, in its own frame, and the opening that belongs to it.
+  void set_intensity(const FrontPoint& point, const Vec3& K, FrontOpening& out) const;
+  const SifSettings& sif() const { return sif_; }
+  const ElasticConstants& material() const { return material_; }
+
+ private:
+  bool solve(const CrackState& crack, std::vector<FrontOpening>& out);
+
+  BemOpening& bem_;
+  SifSettings sif_;
+  ElasticConstants material_;
+  int solve_every_;
+  bool solved_ = false;
+  FrontHistory history_;
+};
+
+/// The opening of each point follows by an OpeningPredictor, a regressor or a closed form, from the K which
+/// its correlation node had when it was on the front. Linear in the number of front points.
+class OpeningByPredictor : public PredictedOpening {
+ public:
+  /// @param predictor  must outlive the source
+  OpeningByPredictor(const PredictionContext& context, const OpeningPredictor& predictor)
+      : PredictedOpening(context), predictor_(predictor) {}
+  std::string name() const override { return std::string(predictor_.name()); }
+
+ private:
+  std::vector<FrontOpening> predict(const CrackState& crack) const override;
+  const OpeningPredictor& predictor_;
+};
+
+/// "K stays as it is in the front's own frame": (K_I, K_II, K_III) of a point are those which its correlation
+/// node had on the front, whatever way the front has turned since. The closed form `steady` keeps the opening
+/// fixed in space instead, so that a turn by φ mixes its modes; where nothing turns the two agree.
+class KeptOpening : public PredictedOpening {
+ public:
+  explicit KeptOpening(const PredictionContext& context) : PredictedOpening(context) {}
+  std::string name() const override { return "kept"; }
+
+ private:
+  std::vector<FrontOpening> predict(const CrackState& crack) const override;
+};
+
+}  // namespace conchoid
