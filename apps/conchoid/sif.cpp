@@ -28,6 +28,7 @@ std::string sif_json(const SifReport& report) {
   return ordered_json{{"fronts", std::move(fronts)},
                       {"triangles", report.triangles},
                       {"opened_volume", number(report.opened_volume)},
+                      {"elements", report.elements},
                       {"warnings", report.warnings},
                       {"seconds", report.seconds}}
       .dump();

@@ -20,15 +20,18 @@ std::string stress_json(const StressReport& report) {
     triangles.push_back(
         {{"centroid", to_json(t.centroid)}, {"principal", to_json(t.principal)}, {"region", t.region}});
   return ordered_json{{"max_principal", number(report.max_principal)},
+                      {"max_displacement", number(report.max_displacement)},
                       {"triangles", std::move(triangles)},
+                      {"elements", report.elements},
                       {"warnings", report.warnings},
                       {"seconds", report.seconds}}
       .dump();
 }
 
 std::string stress_text(const StressReport& report) {
-  std::string text = fmt::format("largest principal stress {:.6g} Pa\n{:<20} {:>10} {:>14} {:>14}",
-                                 report.max_principal, "region", "triangles", "smallest σ1", "largest σ1");
+  std::string text =
+      fmt::format("largest principal stress {:.6g} Pa ({} elements)\n{:<20} {:>10} {:>14} {:>14}",
+                  report.max_principal, report.elements, "region", "triangles", "smallest σ1", "largest σ1");
   struct Extent {
     std::size_t count = 0;
     double low = 0, high = 0;

@@ -211,6 +211,7 @@ const BrokenScene kBroken[] = {
     {"frames_list", kCube + "[run]\nframes = [3]\n", {"scene.toml:7", "a list"}},
     {"negative_cracks", kCube + "[run]\nmax_cracks = -1\n", {"scene.toml:7", "max_cracks"}},
     {"contact_text", kCube + "[run]\ncontact = \"true\"\n", {"scene.toml:7", "without quotes"}},
+    {"elements", kCube + "[run]\nelements = \"cubic\"\n", {"scene.toml:7", "quadratic"}},
     {"sif_method", kCube + "[run]\nsif = \"three-point\"\n", {"scene.toml:7", "two-point"}},
     {"tolerance", kCube + "[run]\nquadrature_tolerance = 1.0\n", {"scene.toml:7", "quadrature_tolerance"}},
 };

@@ -4,6 +4,7 @@
 #include <string>
 #include <type_traits>
 
+#include "conchoid/bem/block_projection.hpp"
 #include "conchoid/bem/load_case.hpp"
 #include "conchoid/bem/pair_blocks.hpp"
 #include "conchoid/core/error.hpp"
@@ -30,19 +31,13 @@ template <class Row, class Column>
 void project(const BlockView& out, std::span<const Row> rows, std::span<const Column> columns,
              const std::vector<int>& row_unknown, const std::vector<Mat3>& row_projection,
              const std::vector<int>& column_unknown, const std::vector<Mat3>& column_projection) {
-  using Stride = Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>;
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const Mat3& Q = column_projection[static_cast<std::size_t>(column_unknown[columns[j].index()])];
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Mat3& P = row_projection[static_cast<std::size_t>(row_unknown[rows[i].index()])];
-      if (P.isIdentity(0) && Q.isIdentity(0)) continue;
-      Eigen::Map<Mat3, 0, Stride> block(
-          out.data + 3 * i * out.row + 3 * j * out.column,
-          Stride(static_cast<Eigen::Index>(out.column), static_cast<Eigen::Index>(out.row)));
-      Mat3 of_system = P * block * Q;
-      if constexpr (std::is_same_v<Row, Column>)
-        if (rows[i] == columns[j]) of_system += block.trace() / 3 * (Mat3::Identity() - P);
-      block = of_system;
+      bool itself = false;
+      if constexpr (std::is_same_v<Row, Column>) itself = rows[i] == columns[j];
+      project_block(out.data + 3 * i * out.row + 3 * j * out.column, out.row, out.column, P, Q, itself);
     }
   }
 }

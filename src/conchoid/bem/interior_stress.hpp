@@ -22,4 +22,13 @@ struct LoadedPanel {
 std::vector<Mat3> interior_stress(std::span<const Vec3> points, const std::vector<LoadedPanel>& panels,
                                   const ElasticConstants& m);
 
+/// The same with quadratic density (corners, then middles of the edges 01, 12, 20) and linear traction.
+struct QuadraticLoadedPanel {
+  Panel panel;
+  std::array<Vec3, 3> traction;
+  std::array<Vec3, 6> density;
+};
+Mat3 interior_stress(const Vec3& point, const std::vector<QuadraticLoadedPanel>& panels,
+                     const ElasticConstants& m);
+
 }  // namespace conchoid

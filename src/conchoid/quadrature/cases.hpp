@@ -25,9 +25,9 @@ namespace conchoid {
 struct TouchingPair {
   Triangle x, y;
   Vec3 normal_x, normal_y;
-  std::array<int, 3> y_corner;  ///< which corner of the original panel y[i] is
-  double noise;                 ///< heights that are rounding
-  double diameter;              ///< no two points of the pair are farther apart
+  std::array<int, 3> x_corner, y_corner;  ///< which corners of the original panels x[i] and y[i] are
+  double noise;                           ///< heights that are rounding
+  double diameter;                        ///< no two points of the pair are farther apart
 };
 TouchingPair touching_pair(const Panel& x, const Panel& y);
 

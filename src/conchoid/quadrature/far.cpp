@@ -3,69 +3,12 @@
 #include <cmath>
 
 #include "conchoid/quadrature/cases.hpp"
+#include "conchoid/quadrature/far_points.hpp"
 #include "conchoid/quadrature/triangle_rules.hpp"
-
-// The point loops are compiled once more for processors with AVX2. They hold no call that is shared with
-// other code, and contraction is off, so every processor computes the same bits. Sanitizers start too late
-// for the choice at load time.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define CONCHOID_WIDE_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CONCHOID_WIDE_CLONES
-#endif
 
 namespace conchoid {
 
 namespace {
-
-constexpr int lanes = 4;
-constexpr int max_points = 36;
-constexpr int max_degree = 12;
-
-/// A rule's points as arrays, filled up to a multiple of the lanes with points of weight 0.
-struct RuleArrays {
-  int count = 0, padded = 0;
-  alignas(32) double l[3][max_points];
-  alignas(32) double weight[max_points];
-};
-
-const RuleArrays& rule_arrays(int degree) {
-  static const auto table = [] {
-    std::array<RuleArrays, max_degree + 1> all{};
-    for (const TriangleRule& rule : triangle_rules()) {
-      RuleArrays& to = all[static_cast<std::size_t>(rule.degree)];
-      to.count = static_cast<int>(rule.points.size());
-      to.padded = (to.count + lanes - 1) / lanes * lanes;
-      for (int i = 0; i < to.padded; ++i) {
-        const RulePoint& p = rule.points[static_cast<std::size_t>(std::min(i, to.count - 1))];
-        to.l[0][i] = p.l0;
-        to.l[1][i] = p.l1;
-        to.l[2][i] = p.l2;
-        to.weight[i] = i < to.count ? p.weight : 0.0;
-      }
-    }
-    return all;
-  }();
-  return table[static_cast<std::size_t>(degree)];
-}
-
-/// The rule's points on one panel, one array per coordinate.
-struct PlacedPoints {
-  const RuleArrays* rule;
-  alignas(32) double at[3][max_points];
-
-  PlacedPoints(const Triangle& t, int degree) : rule(&rule_arrays(degree)) {
-    for (int k = 0; k < 3; ++k) {
-      const double a = t[0][k], b = t[1][k], c = t[2][k];
-      for (int i = 0; i < rule->padded; ++i)
-        at[k][i] = rule->l[0][i] * a + rule->l[1][i] * b + rule->l[2][i] * c;
-    }
-  }
-};
-
-/// Four numbers at a time; the compiler makes of it what the processor has.
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), may_alias));
 
 CONCHOID_WIDE_CLONES void sum_single_layer(const PlacedPoints& x, const PlacedPoints& y,
                                            double (&result)[7][lanes]) {
@@ -135,10 +78,6 @@ CONCHOID_WIDE_CLONES void sum_double_layer(const PlacedPoints& x, const double* 
     result[1][l] = s1[l];
     result[2][l] = s2[l];
   }
-}
-
-double sum_lanes(const double (&s)[lanes]) {
-  return (s[0] + s[1]) + (s[2] + s[3]);
 }
 
 }  // namespace

@@ -26,10 +26,12 @@ constexpr std::array<DegreeBound, 7> bounds = {{{2, 0.033, 0.18},
 
 }  // namespace
 
-int far_degree(Layer layer, double radius, double distance, double tolerance) {
+int far_degree(Layer layer, double radius, double distance, double tolerance, int density) {
   if (!(distance > radius)) return 0;
   const double ratio = radius / distance;
   double power = ratio;
+  for (; density > 0; --density)
+    power /= ratio;
   int degree = 0;
   for (const DegreeBound& bound : bounds) {
     for (; degree < bound.degree; ++degree)

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "conchoid/quadrature/cases.hpp"
+#include "conchoid/quadrature/cells.hpp"
 #include "conchoid/quadrature/far_rules.hpp"
 #include "conchoid/quadrature/graded.hpp"
 #include "conchoid/quadrature/segment_quadrature.hpp"
@@ -129,65 +130,6 @@ Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelP
            integrate_unit_segment<N>(on_edge, std::array{crossing}, allowed / std::abs(factor), rounding);
   }
   return sum;
-}
-
-double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double s = std::clamp(ab.dot(p - a) / ab.squaredNorm(), 0.0, 1.0);
-  return (p - a - s * ab).norm();
-}
-
-double distance_to_panel(const Vec3& p, const PanelPotential& panel) {
-  if (panel.corner_functions(p).minCoeff() >= 0) return std::abs(panel.height(p));
-  return std::min({distance_to_segment(p, panel.corner(0), panel.corner(1)),
-                   distance_to_segment(p, panel.corner(1), panel.corner(2)),
-                   distance_to_segment(p, panel.corner(2), panel.corner(0))});
-}
-
-Vec3 centroid(const Triangle& t) {
-  return (t[0] + t[1] + t[2]) / 3;
-}
-
-double radius(const Triangle& t, const Vec3& center) {
-  return std::max({(t[0] - center).norm(), (t[1] - center).norm(), (t[2] - center).norm()});
-}
-
-/// ∫ over a triangle of f, smooth on the scale of the distance from `source`: cut at the longest edge until a
-/// rule suffices. False, and nothing of use in sum, when that would take more than `budget` points.
-template <int N, class F>
-bool over_cells(Layer layer, const Triangle& whole, double area, const PanelPotential& source,
-                double tolerance, int budget, const F& f, Eigen::Matrix<double, N, 1>& sum) {
-  struct Cell {
-    Triangle corners;
-    double area;
-  };
-  sum.setZero();
-  std::array<Cell, 40> stack;
-  int top = 0;
-  stack[top++] = {whole, area};
-  while (top > 0) {
-    const Cell cell = stack[--top];
-    const Triangle& t = cell.corners;
-    const Vec3 center = centroid(t);
-    const int degree = far_degree(layer, radius(t, center), distance_to_panel(center, source), tolerance);
-    if (degree > 0) {
-      const auto points = triangle_rule(degree).points;
-      budget -= static_cast<int>(points.size());
-      if (budget < 0) return false;
-      for (const RulePoint& p : points)
-        sum += (p.weight * cell.area) * f(rule_point(t, p));
-      continue;
-    }
-    if (top + 2 > static_cast<int>(stack.size())) return false;
-    budget -= 3;
-    const std::array<double, 3> length2 = {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(),
-                                           (t[0] - t[2]).squaredNorm()};
-    const int i = static_cast<int>(std::max_element(length2.begin(), length2.end()) - length2.begin());
-    const Vec3 mid = 0.5 * (t[i] + t[(i + 1) % 3]);
-    stack[top++] = {{t[i], mid, t[(i + 2) % 3]}, cell.area / 2};
-    stack[top++] = {{mid, t[(i + 1) % 3], t[(i + 2) % 3]}, cell.area / 2};
-  }
-  return true;
 }
 
 constexpr int cheap_budget = 150;    // points: about the price of the edge form

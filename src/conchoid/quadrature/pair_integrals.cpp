@@ -144,6 +144,7 @@ TouchingPair touching_pair(const Panel& x, const Panel& y) {
     pair.x[i] = x.x[in_x[i]] - origin;
     pair.y[i] = y.x[in_y[i]] - origin;
   }
+  pair.x_corner = in_x;
   pair.y_corner = in_y;
   return pair;
 }

@@ -66,13 +66,6 @@ Eigen::Matrix<double, 6, 1> symmetric_product(const Vec3& a, const Vec3& b, doub
   return r;
 }
 
-/// What every potential needs of one point; see the notation of the class.
-struct PanelPotential::Terms {
-  double h;
-  double solid_angle = 0;
-  std::array<double, 3> p, f, distance_rise;
-};
-
 PanelPotential::PanelPotential(const Triangle& corners, const Vec3& normal, double noise)
     : corner_(corners), normal_(normal), noise_(noise) {
   const Vec3 area_vector = area_vector2(corners[0], corners[1], corners[2]);
@@ -103,6 +96,7 @@ PanelPotential::Terms PanelPotential::terms(const Vec3& x, bool with_solid_angle
     q.p[i] = p;
     q.f[i] = log_term(s0, s1, r[i], r[j], length_[i], d2);
     q.distance_rise[i] = length_[i] * (s0 + s1) / (r[i] + r[j]);
+    q.distance_moment[i] = s1 * r[j] - s0 * r[i];
     if (with_solid_angle && height > 0) {
       const double d0 = d2 + height * r[i], d1 = d2 + height * r[j];
       q.solid_angle += std::atan2(p * (s1 * d0 - s0 * d1), d0 * d1 + p * p * s0 * s1);

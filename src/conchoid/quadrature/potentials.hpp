@@ -35,6 +35,16 @@ class PanelPotential {
   Vec3 double_layer(const Vec3& x) const;
   /// ∫_Y (y−x)/R³ dy, the gradient of ∫_Y 1/R; in the plane of Y the principal value.
   Vec3 gradient(const Vec3& x) const;
+
+  // The same with polynomial densities (polynomial_potentials.cpp), N_j as corner_functions(). With the foot ρ of
+  // x, s = y − ρ, f, p, m, t as above and A = ∫ s/R, F = Σ m f, S = ∫ s sᵀ/R³ = I₀ (I − n nᵀ) − Σ (p f m + (R₊−R₋) t) mᵀ,
+  //   ∫ (g·s) s sᵀ/R³ = A gᵀ + (g·A) (I − n nᵀ) − Σ [∫_e (g·s) s/R] mᵀ ,   ∫ s/R³ = −F.        docs/theory.md (Q6)
+  /// ∫_Y of the single-layer family times 1, N_1, N_2: one column each.
+  Eigen::Matrix<double, 7, 3> linear_single_layer(const Vec3& x) const;
+  /// ∫_Y n·(x−y)/R³ times 1, N_1, N_2, N_1², N_1 N_2, N_2²; 0 in the plane of Y.
+  Eigen::Matrix<double, 6, 1> quadratic_double_layer(const Vec3& x) const;
+  /// ∫_Y (y−x)/R³ times 1, N_1, N_2: one column each.
+  Eigen::Matrix<double, 3, 3> linear_gradient(const Vec3& x) const;
   /// The three corner functions N_j at the foot of x (affine beyond the panel).
   Vec3 corner_functions(const Vec3& x) const;
 
@@ -45,7 +55,12 @@ class PanelPotential {
   double double_area() const { return double_area_; }
 
  private:
-  struct Terms;
+  /// What every potential needs of one point.
+  struct Terms {
+    double h;
+    double solid_angle = 0;
+    std::array<double, 3> p, f, distance_rise, distance_moment;  ///< per edge; R₊−R₋, s₊R₊−s₋R₋
+  };
   Terms terms(const Vec3& x, bool with_solid_angle) const;
 
   Triangle corner_;

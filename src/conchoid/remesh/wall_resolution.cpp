@@ -14,6 +14,7 @@ namespace conchoid {
 namespace {
 
 constexpr double locking = 0.08, unpaired_locking = 0.006;  // of (h/t)², (h/t)⁴
+constexpr double quadratic_locking = 6e-7;                  // of (h/t)⁵
 constexpr double opposite = 0.2;                            // × h: nodes so near lie opposite each other
 constexpr std::size_t most_samples = 50000;                 // triangles of a fine mesh that are measured
 constexpr double telling_share = 0.05;                      // of the surface
@@ -109,6 +110,10 @@ std::size_t rounded_up(double count) {
 double shown_bending(double edge_over_thickness, bool paired) {
   const double square = edge_over_thickness * edge_over_thickness;
   return 1 / (1 + square * (locking + (paired ? 0 : unpaired_locking) * square));
+}
+
+double shown_bending_by_quadratic(double edge_over_thickness) {
+  return 1 / (1 + quadratic_locking * std::pow(edge_over_thickness, 5));
 }
 
 double CoarseWalls::shown_by_most() const {

@@ -5,6 +5,7 @@
 
 #include "conchoid/bem/body_force.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/prepared_body.hpp"
 #include "conchoid/sim/spread_force.hpp"
 
@@ -197,7 +198,7 @@ LoadCase load_of(const Scene& scene, const PreparedBody& body) {
         ": the conditions hold other triangles than those that the body was prepared for; prepare it again");
   AmbientField ambient = body_field(scene, body, data);
   take_off(ambient, body.surface, data);
-  return load_case(body.surface, data, std::move(ambient));
+  return as_elements_take(load_case(body.surface, data, std::move(ambient)), body);
 }
 
 }  // namespace conchoid

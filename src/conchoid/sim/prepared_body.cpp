@@ -8,6 +8,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/initial_cracks.hpp"
 #include "conchoid/sim/resolution_floor.hpp"
 
@@ -145,6 +146,7 @@ PreparedBody prepare(const Scene& scene, Body body) {
       out.surface, kinds_of(scene, out), scene.material.elastic(),
       BemSettings{scene.run.quadrature_tolerance, scene.run.contact, scene.run.solver, scene.run.cache},
       std::span(&load, 1));
+  choose_elements(scene.run, out);
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/load_case.hpp"
+#include "conchoid/bem/quadratic_body.hpp"
 #include "conchoid/sim/body.hpp"
 #include "conchoid/sim/scene.hpp"
 
@@ -30,6 +31,8 @@ struct PreparedBody {
   double crack_edge = 0;        ///< r̄ [m]
   double surface_edge = 0;      ///< h [m]
   std::shared_ptr<const BodyOperator> elastic;  ///< of `surface`, for the kinds of the conditions
+  /// The same with quadratic displacements, which loads then come from (body_elements.hpp); empty: linear elements.
+  std::shared_ptr<const QuadraticBody> quadratic;
 
   bool infinite() const { return surface.corners.empty(); }
 };
@@ -45,7 +48,8 @@ PreparedBody prepare(const Scene& scene, Body body);
 PreparedBody prepare(const Scene& scene);
 
 /// The scene's conditions as values on the prepared body. Throws InputError as prepare() does, and for
-/// conditions of other kinds than those it was prepared for.
+/// conditions of other kinds than those it was prepared for. On a body of quadratic elements that is their solution,
+/// as a field (as_elements_take).
 LoadCase load_of(const Scene& scene, const PreparedBody& body);
 
 /// Which components of the displacement the scene prescribes on each triangle of the boundary elements. Throws as prepare() does.

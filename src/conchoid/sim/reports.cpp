@@ -6,6 +6,7 @@
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
+#include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/opening_source.hpp"
 #include "conchoid/sim/resolution_warnings.hpp"
 
@@ -54,6 +55,7 @@ SifReport compute_sifs(const Scene& scene) {
   BemOpening bem(body.elastic, load_of(scene, body), sif_settings(scene.run));
   const CrackState crack = initial_crack(body);
   SifReport report;
+  report.elements = elements_of(body);
   report.warnings = resolution_warnings(body, crack, scene.run.max_cracks > 0);
   warn_of(report.warnings);
   solve(bem, crack);
@@ -81,6 +83,7 @@ StressReport compute_stress(const Scene& scene) {
   solve(bem, initial_crack(body));
   const IdVector<TriId, int> region = region_of_triangles(body.surface, body.regions);
   StressReport report;
+  report.elements = elements_of(body);
   report.warnings = element_warnings(body);
   warn_of(report.warnings);
   const std::vector<Mat3> stress = bem.body().surface_stress();
@@ -90,6 +93,8 @@ StressReport compute_stress(const Scene& scene) {
                                 region[TriId(t)] >= 0 ? body.regions[region[TriId(t)]].name : std::string()});
     report.max_principal = t == 0 ? principal[0] : std::max(report.max_principal, principal[0]);
   }
+  for (const Vec3& u : bem.body().displacement())
+    report.max_displacement = std::max(report.max_displacement, u.norm());
   report.seconds = seconds_since(start);
   return report;
 }

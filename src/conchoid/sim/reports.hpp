@@ -22,6 +22,7 @@ struct SifReport {
   std::vector<FrontLine> fronts;
   std::size_t triangles = 0;  ///< of the cracks inside the body
   double opened_volume = 0;   ///< ∫ n·Δu over the cracks [m³]
+  std::string elements;       ///< "linear" or "quadratic" (body_elements.hpp)
   double seconds = 0;
   std::vector<std::string> warnings;  ///< of elements too coarse (resolution_warnings.hpp)
 };
@@ -35,7 +36,9 @@ struct StressReport {
     std::string region;  ///< empty: in none
   };
   double max_principal = 0;
+  double max_displacement = 0;  ///< of the nodes [m]; up to a rigid motion where nothing is held
   std::vector<SurfaceTriangle> triangles;
+  std::string elements;  ///< "linear" or "quadratic"
   double seconds = 0;
   std::vector<std::string> warnings;
 };

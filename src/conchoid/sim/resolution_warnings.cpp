@@ -10,6 +10,7 @@
 #include "conchoid/mesh/bores.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/remesh/wall_resolution.hpp"
+#include "conchoid/sim/body_elements.hpp"
 
 namespace conchoid {
 namespace {
@@ -95,13 +96,38 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
   return out;
 }
 
+std::vector<std::string> quadratic_warnings(const CoarseWalls& walls) {
+  constexpr double advised_ratio = 8;  // edge over thickness
+  const double shown = shown_bending_by_quadratic(walls.edge / walls.thickness);
+  if (shown >= least_shown) return {};
+  return {fmt::format(
+      "quadratic elements of {:.2g} m on a wall of {:.2g} m ({:.0f} % of the surface) may show as little as "
+      "{:.0f} % of the bending stress; use edges of at most {:.2g} m there",
+      walls.edge, walls.thickness, 100 * walls.share, 100 * shown, advised_ratio * walls.thickness)};
+}
+
+// Loads on cracks are those of quadratic elements, the body that opens around them is one of linear ones.
+std::vector<std::string> response_warnings(const PreparedBody& body) {
+  if (!body.quadratic) return {};
+  const auto walls = coarse_walls(body.surface);
+  if (!walls) return {};
+  return {fmt::format(
+      "cracks feel the stress of quadratic elements, but the wall of {:.2g} m bends around them as linear "
+      "elements of {:.2g} m let it, with about {:.0f} % of its compliance: cracks start where they should, "
+      "and open less than they should once they are longer than the wall is thick",
+      walls->thickness, walls->edge, 100 * walls->shown)};
+}
+
 }  // namespace
 
 std::vector<std::string> element_warnings(const PreparedBody& body) {
   if (body.infinite()) return {};
   const auto walls = coarse_walls(body.surface);
   if (!walls) return {};
-  return {walls->text()};
+  if (body.quadratic) return quadratic_warnings(*walls);
+  const auto n = static_cast<double>(body.surface.triangle_count());
+  return {fmt::format("{}; or run.elements = \"quadratic\", with {:.2g} GB of memory for these elements",
+                      walls->text(), 1e-9 * quadratic_bytes(n))};
 }
 
 std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack,
@@ -110,7 +136,10 @@ std::vector<std::string> resolution_warnings(const PreparedBody& body, const Cra
   const auto add = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(out));
   };
-  if (!body.infinite() && (growing || !body.cracks.empty())) add(crack_edge_warnings(body));
+  if (!body.infinite() && (growing || !body.cracks.empty())) {
+    add(response_warnings(body));
+    add(crack_edge_warnings(body));
+  }
   add(depth_warnings(body, crack));
   return out;
 }

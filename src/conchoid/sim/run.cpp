@@ -9,6 +9,7 @@
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/core/undisturbed.hpp"
+#include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/checkpoint.hpp"
 #include "conchoid/sim/load_report.hpp"
@@ -54,6 +55,7 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
       {"run.after_separation",
        std::string(scene.run.after_separation == AfterSeparation::stop ? "stop" : "continue")},
       {"run.smallest_body", scene.run.smallest_body},
+      {"run.elements", std::string(elements_of(body))},
       {"run.sif", std::string(scene.run.sif == SifSource::two_point ? "two-point" : "one-point")},
       {"run.solve_every", static_cast<std::int64_t>(scene.run.solve_every)},
       {"run.solver", scene.run.solver},

@@ -87,6 +87,7 @@ void add(ContentHash& hash, const RunSpec& run) {
         run.after_separation == AfterSeparation::stop})
     hash.add(static_cast<std::uint64_t>(choice));
   hash.add(run.quadrature_tolerance);
+  hash.add(static_cast<std::uint64_t>(run.elements));
 }
 
 }  // namespace

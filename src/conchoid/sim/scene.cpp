@@ -191,7 +191,11 @@ RunSpec read_run(const TomlTable& file) {
   table->read("max_fragments", run.max_fragments);
   table->read("solve_every", run.solve_every);
   std::string sif = "two-point", convention = "full-opening", rayleigh = "exact", compression = "closed",
-              after = "continue";
+              after = "continue", elements = "auto";
+  table->read("elements", elements);
+  run.elements = elements == "linear"      ? ElementOrder::linear
+                 : elements == "quadratic" ? ElementOrder::quadratic
+                                           : ElementOrder::by_walls;
   table->read("sif", sif);
   table->read("sif_convention", convention);
   table->read("rayleigh", rayleigh);

@@ -103,6 +103,7 @@ struct CrackSpec {
 
 enum class SifSource { two_point, one_point };
 enum class OpeningConvention { full, half };
+enum class ElementOrder { by_walls, linear, quadratic };
 enum class AfterSeparation { go_on, stop };
 
 struct RunSpec {
@@ -117,6 +118,7 @@ struct RunSpec {
   SifSource sif = SifSource::two_point;
   OpeningConvention sif_convention = OpeningConvention::full;
   bool published_compression = false;  ///< with_compressive_factor() before growth, else closed faces
+  ElementOrder elements = ElementOrder::by_walls;
   double quadrature_tolerance = 1e-4;
   std::string solver = "dense";  ///< of the body (bem/body_solver.hpp); no key of the scene, answers agree
   std::shared_ptr<const ByteCache> cache;  ///< of prepared bodies; no key of the scene

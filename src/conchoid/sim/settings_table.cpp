@@ -370,6 +370,17 @@ const std::vector<Setting>& settings() {
        {},
        0,
        {"full-opening", "half-opening"}},
+      {"run",
+       "elements",
+       text,
+       "",
+       "\"auto\"",
+       "displacement on the elements of the uncracked body: linear; quadratic, for walls that bend, in which "
+       "linear ones are far too stiff (144 n² bytes for n triangles); auto, quadratic where walls are thin "
+       "beside the elements, up to 4000 triangles",
+       {},
+       0,
+       {"auto", "linear", "quadratic"}},
       {"run", "quadrature_tolerance", number, "", "1e-4",
        "relative error of the integrals over triangle pairs; K moves by less than a tenth of it",
        between(1e-11, 1e-3)},
