@@ -119,7 +119,7 @@ struct RunSpec {
   OpeningConvention sif_convention = OpeningConvention::full;
   bool published_compression = false;  ///< with_compressive_factor() before growth, else closed faces
   ElementOrder elements = ElementOrder::by_walls;
-  double quadrature_tolerance = 1e-4;
+  double quadrature_tolerance = 1e-6;
   std::string solver = "dense";  ///< of the body (bem/body_solver.hpp); no key of the scene, answers agree
   std::shared_ptr<const ByteCache> cache;  ///< of prepared bodies; no key of the scene
   bool exact_rayleigh_speed = true;
