@@ -48,6 +48,10 @@ void reproduce_and_print(ReproduceCommand command, const CommonOptions& common) 
   command.options.armadillo = command.armadillo;
   const StudyReport report = reproduce(command.options);
   print(common.json ? study_json(report) : report_text(report));
+  for (const Reproduction& made : report.made)
+    if (!made.failure.empty())
+      throw ComputationError(fmt::format("{} could not be made; the report tells why, and has the others",
+                                         made.experiment->name));
 }
 
 }  // namespace

@@ -173,6 +173,29 @@ TEST(Reproduce, MakesAReportAndGoesOnFromItsCache) {
   EXPECT_EQ(count(test::file_content(scratch / "out" / "tables" / "tiny-comparison.csv"), "\n"), 4u);
 }
 
+TEST(Reproduce, OneThatFailsIsRecordedAndTheNextFollows) {
+  const test::TemporaryFolder scratch;
+  Workshop workshop(scratch / "out", StudyScale::smoke, {});
+  const Experiment fails{
+      .name = "fails", .title = "fails", .outcome = "", .published = {}, .make = [](Workshop&) -> Findings {
+        throw ComputationError("the disk is full");
+      }};
+  const Experiment works{
+      .name = "works", .title = "works", .outcome = "", .published = {}, .make = [](Workshop&) {
+        return Findings{{{"t", "", {"a"}, {{"1"}}}}, {}, {}, {}};
+      }};
+  const StudyReport report = reproduce({&fails, &works}, workshop);
+  EXPECT_EQ(report.made.at(0).failure, "the disk is full");
+  EXPECT_EQ(report.made.at(1).failure, "");
+  EXPECT_EQ(count(test::file_content(report.file), "the disk is full"), 1u);
+  EXPECT_EQ(test::file_content(scratch / "out" / "tables" / "works-t.csv"), "a\n1\n");
+  const Experiment stops{
+      .name = "stops", .title = "stops", .outcome = "", .published = {}, .make = [](Workshop&) -> Findings {
+        throw Interrupted("stop");
+      }};
+  EXPECT_THROW(reproduce({&stops}, workshop), Interrupted);
+}
+
 #endif
 
 #if CONCHOID_WITH_LEARNING && CONCHOID_WITH_PICTURES

@@ -47,6 +47,7 @@ std::string experiment_html(const Reproduction& made) {
   std::string out =
       fmt::format("<section id='{0}'><h2>{1}</h2><p><code>{0}</code>, {2:.0f} s. Published: {3}</p>\n",
                   e.name, escaped_text(e.title), made.seconds, escaped_text(e.outcome));
+  if (!made.failure.empty()) out += fmt::format("<p><b>Failed: {}</b></p>\n", escaped_text(made.failure));
   out += "<div class='published'>";
   for (const ReportTable& table : e.published)
     out += table_html(table);

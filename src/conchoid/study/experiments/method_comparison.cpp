@@ -198,8 +198,7 @@ ReportPicture pieces_picture(Workshop& workshop, const std::string& name, const 
     panels.push_back(run_panel(run, workshop.run_folder(scene.text, method), {}));
     panels.back().title = method.title;
   }
-  const RunDocument& first = workshop.run(scene.text).document;
-  return {scene.title, write_panels(workshop, name, panels, usual_up(first))};
+  return {scene.title, write_panels(workshop, name, panels, scene.up)};
 }
 
 ReportPicture frames_picture(Workshop& workshop, const std::string& name, const ComparedScene& scene,
@@ -209,7 +208,7 @@ ReportPicture frames_picture(Workshop& workshop, const std::string& name, const 
   const std::vector<PicturePanel> panels =
       frame_panels(run, workshop.run_folder(scene.text, method), frames, {});
   return {scene.title + ", " + method.title + ": frames in progress",
-          write_panels(workshop, name, panels, usual_up(run.document))};
+          write_panels(workshop, name, panels, scene.up)};
 }
 
 }  // namespace conchoid

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "conchoid/core/vec.hpp"
 #include "conchoid/study/experiments/report.hpp"
 #include "conchoid/study/experiments/workshop.hpp"
 
@@ -14,6 +15,7 @@ struct ComparedScene {
   std::string text;   ///< of the scene
   /// Noise floor, solved by boundary elements, too: what is changed, text of the scene.
   std::vector<std::pair<std::string, std::string>> changed = {};
+  Vec3 up = Vec3::UnitZ();  ///< in pictures
 };
 
 /// The closed forms that need no training, each alone and solved every 2nd and 3rd frame.

@@ -67,7 +67,13 @@ StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& wo
   for (const Experiment* e : wanted) {
     message(fmt::format("{} …", e->title));
     const auto start = std::chrono::steady_clock::now();
-    Reproduction made{e, e->make(workshop), 0};
+    Reproduction made{e, {}, 0, ""};
+    try {
+      made.findings = e->make(workshop);
+    } catch (const ComputationError& error) {
+      made.failure = error.what();
+      warning(fmt::format("{}: {}", e->name, made.failure));
+    }
     made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_tables(made, workshop.folder() / "tables");
     report.made.push_back(std::move(made));
@@ -104,7 +110,8 @@ std::string study_json(const StudyReport& report) {
                                   {"published", tables_json(made.experiment->published)},
                                   {"tables", tables_json(made.findings.tables)},
                                   {"remarks", made.findings.remarks},
-                                  {"seconds", made.seconds}});
+                                  {"seconds", made.seconds},
+                                  {"failure", made.failure}});
   out["left_out"] = report.left_out;
   return out.dump();
 }

@@ -15,7 +15,8 @@ struct ReproduceOptions {
 struct Reproduction {
   const Experiment* experiment = nullptr;
   Findings findings;
-  double seconds = 0;  ///< this time; what the cache held costs none
+  double seconds = 0;   ///< this time; what the cache held costs none
+  std::string failure;  ///< why it could not be made; empty: it was
 };
 
 struct StudyReport {
@@ -27,7 +28,7 @@ struct StudyReport {
 };
 
 /// Makes these experiments in a workshop and writes after each the report of those made so far, one page that needs nothing else,
-/// and the tables as CSV. What was made before in the same folder is not made again, whatever interrupted it.
+/// and the tables as CSV. One that cannot be computed is recorded with the reason, and the next one follows. What was made before in the same folder is not made again, whatever interrupted it.
 StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& workshop);
 /// The same for those named. Throws InputError for an unknown name, and for one that lacks its scan, before
 /// anything is made.

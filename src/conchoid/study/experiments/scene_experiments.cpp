@@ -164,7 +164,7 @@ Findings figure_9(Workshop& workshop) {
 }
 
 ComparedScene armadillo(const Workshop& workshop) {
-  return {"Armadillo", armadillo_scene(workshop.armadillo())};
+  return {"Armadillo", armadillo_scene(workshop.armadillo()), {}, Vec3::UnitY()};
 }
 
 Findings figure_10(Workshop& workshop) {
