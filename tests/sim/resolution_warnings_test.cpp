@@ -61,7 +61,7 @@ TEST(ResolutionWarnings, ARunReportsThem) {
   scene.run.frames = 1;
   const RunResult result = run_scene(scene, {});
   ASSERT_EQ(result.document.warnings.size(), 1u);
-  EXPECT_NE(result.document.warnings[0].find("bending stress"), std::string::npos);
+  EXPECT_NE(result.document.warnings[0].find("quadratic elements"), std::string::npos);
 }
 
 /// Of an edge crack across a coarse cube, K over a strip's of the same depth.

@@ -93,6 +93,7 @@ PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fr
     force.on_axis = volume_moments(body.surface).center + body.origin;
   out.scene.resolution = {body.crack_edge, body.surface_edge};
   out.scene.run.inertia_relief = true;
+  if (!body.quadratic) out.scene.run.elements = ElementOrder::linear;
   out.scene.run.cache.reset();  // no other run has the same piece
   return out;
 }

@@ -15,7 +15,7 @@ struct PieceScene {
 /// of the element of the body that lies there (the triangle that it comes from, Fragment::source, where the
 /// body was cut as it was meshed), and is free if its face was made by fracture. A force and a
 /// moment go on as the tractions that they were, weight as it is, and a rotation about the axis it had. Unless the piece is held, its loads accelerate it (inertia relief). Cracks that end in
-/// it go on from where they stand. Its elements are as large as the body's.
+/// it go on from where they stand. Its elements are as large as the body's, and linear where those are.
 /// @param scene     of the body that it was cut from
 /// @param body      that body, made ready
 /// @param fragment  in the scene's coordinates, with Fragment::source into body.detailed

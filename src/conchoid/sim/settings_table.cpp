@@ -377,7 +377,7 @@ const std::vector<Setting>& settings() {
        "\"auto\"",
        "displacement on the elements of the uncracked body: linear; quadratic, for walls that bend, in which "
        "linear ones are far too stiff (144 n² bytes for n triangles); auto, quadratic where walls are thin "
-       "beside the elements, up to 4000 triangles",
+       "beside the elements, up to 4000 triangles, and in its pieces where theirs are",
        {},
        0,
        {"auto", "linear", "quadratic"}},
