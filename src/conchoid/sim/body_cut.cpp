@@ -128,7 +128,7 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
       }
       if (clean_ways == kCleanWays || (clean_ways > 0 && best.size() == 2)) break;
     }
-    if (best.empty()) continue;
+    if (clean_ways == 0) continue;
     cut.ligament = parting_faces(best, best_surface, all.triangle_count());
     cut.fragments = std::move(best);
     return;

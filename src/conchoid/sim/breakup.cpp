@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <optional>
 
@@ -18,7 +19,8 @@
 namespace conchoid {
 namespace {
 
-constexpr double kSmallestVolume = 8;  // × r̄³: two edges of the cracks each way
+constexpr std::array kShifts{0.0, 0.02, -0.02, 0.05, -0.05};  // × edge of the surface, tried in turn
+constexpr double kSmallestVolume = 8;                         // × r̄³: two edges of the cracks each way
 
 // Whether a crack starts or grows in a frame whose openings are known.
 bool moves(const Fracture& fracture) {
@@ -29,6 +31,20 @@ bool moves(const Fracture& fracture) {
   return fracture.new_cracks() > 0 ||
          (fracture.solved() && fracture.new_cracks() < allowed &&
           !find_crack_sites(fracture.body(), fracture.crack(), fracture.solution(), 1).empty());
+}
+
+// The pieces, mended; none where not all of them are solids. @param shift  of the cracks, along their mean normal [m]
+std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, double shift) {
+  Vec3 normal = Vec3::Zero();
+  const TriMesh& sheet = fracture.crack().sheet.mesh;
+  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
+    normal += area_vector(sheet, TriId(t));
+  Pieces cut = cut_into_pieces(fracture, output, shift * normal.normalized());
+  for (Fragment& f : cut.fragments) {
+    if (!is_solid(f)) mend_fragment(f);
+    if (!is_solid(f)) return std::nullopt;
+  }
+  return cut;
 }
 
 // Hands on what a body does; of a piece nothing before the first frame in which it moves.
@@ -244,19 +260,18 @@ void Breakup::State::end_first(StopReason reason) {
 
 void Breakup::State::end_piece() {
   if (!grown() || interrupted()) return;
-  Pieces cut = cut_into_pieces(*fracture, output);
-  for (Fragment& f : cut.fragments)
-    if (!is_solid(f)) mend_fragment(f);
-  if (!std::all_of(cut.fragments.begin(), cut.fragments.end(),
-                   [](const Fragment& f) { return is_solid(f); })) {
+  std::optional<Pieces> clean;
+  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i)
+    clean = solid_pieces(*fracture, output, kShifts[i] * body->surface_edge);
+  if (!clean) {
     warnings.push_back(
         fmt::format("after frame {}: what broke further in a piece could not be cut out of it cleanly; the "
                     "piece is left as it was before, and its cracks are seen in the frames only",
                     fracture->frame()));
     return;
   }
-  const std::vector<Fragment> raw = cut.fragments;
-  const std::size_t first = pieces->replace(*id, std::move(cut));
+  const std::vector<Fragment> raw = clean->fragments;
+  const std::size_t first = pieces->replace(*id, *std::move(clean));
   if (raw.size() > 1) wait(raw, first, raw.size());
 }
 

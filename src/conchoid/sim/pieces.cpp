@@ -75,15 +75,19 @@ void arrange_pieces(Pieces& pieces, const PreparedBody& body, const OutputSpec& 
     pieces.fragments[i].mesh.positions = std::move(positions[i]);
 }
 
-Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output) {
+Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const Vec3& shift) {
   const PreparedBody& body = fracture.body();
   Pieces out;
   if (body.infinite()) {
     out.crack = crack_surface(fracture);
     return out;
   }
+  std::vector<TriMesh> sheets = fracture.visible_sheets();
+  for (TriMesh& sheet : sheets)
+    for (Vec3& x : sheet.positions)
+      x += shift;
   BodyCut cut =
-      fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), fracture.visible_sheets());
+      fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), std::move(sheets));
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
   out.crack = join({cut.inside ? *cut.inside : trimmed_crack(body, cut.sheets), cut.ligament});

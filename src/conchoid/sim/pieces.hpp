@@ -21,7 +21,9 @@ struct Pieces {
 /// Cuts the body by its cracks as they stand: pieces with mass, attributes as `output` asks for, and the
 /// cracks that end in them, so that each can be a body of its own (body_from_fragment()). Pieces too small are
 /// joined to neighbours as the run's settings say. The infinite body has no pieces.
-Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output = {});
+/// @param shift  of the visible cracks [m], where they have not parted the body: out of the way of what they graze
+Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output = {},
+                       const Vec3& shift = Vec3::Zero());
 
 /// Largest first, with contacts and attributes made anew, for pieces that were cut one after the other.
 /// @param pieces  in the body's coordinates, Fragment::source leads back to `body`
