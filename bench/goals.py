@@ -4,7 +4,7 @@
     bench/goals.py BUILD [--only WORD…] [--rounds N] [--scan FILE]
 
 Times of runs are of whole processes with two threads and no output, the best of N, in units of c: the time of bench/calibrate.cpp,
-taken right before each round. BUILD is a folder with conchoid and conchoid_bench. Rows whose names contain none of the words are left out.
+taken right before each round. BUILD is a folder with conchoid, conchoid_bench and calibrate. Rows whose names contain none of the words are left out.
 """
 import argparse
 import json
@@ -41,6 +41,12 @@ def armadillo(scan):
     return f"""[body]
 mesh = "{scan}"
 remesh = 1000
+[material]
+youngs_modulus = 3.1e9
+poisson_ratio = 0.327
+density = 1200
+strength = 7.6e7
+toughness = 1.0e6
 [resolution]
 crack = 3.0
 surface = 0.2
@@ -55,10 +61,10 @@ name = "feet"
 half_spaces = [[0, -1, 0, 50]]
 [[boundary]]
 region = "left"
-traction = [6e5, 0, 0]
+traction = [1.2e6, 0, 0]
 [[boundary]]
 region = "right"
-traction = [-6e5, 0, 0]
+traction = [-1.2e6, 0, 0]
 [[boundary]]
 region = "feet"
 fixed = true
@@ -79,8 +85,7 @@ class Goals:
     def __init__(self, build, only, rounds, folder):
         self.conchoid, self.bench = build / "conchoid", build / "conchoid_bench"
         self.only, self.rounds, self.folder = only, rounds, folder
-        self.calibration = folder / "calibrate"
-        subprocess.run(["g++", "-O2", "-o", self.calibration, ROOT / "bench" / "calibrate.cpp"], check=True)
+        self.calibration = build / "calibrate"
         self.c = self.unit()
         print(f"c = {self.c:.3f} s at the start, on {platform.processor() or platform.machine()}\n")
         print(f"{'what':44} {'goal':>12} {'reached':>12} {'ratio':>7}   remarks")

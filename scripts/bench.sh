@@ -14,7 +14,7 @@ cmake -B "$build" -DCONCHOID_BUILD_BENCH=ON
 cmake --build "$build" --target conchoid_bench
 
 if [ "${1:-}" = --goals ]; then
-  cmake --build "$build" --target conchoid
+  cmake --build "$build" --target conchoid calibrate
   exec python3 bench/goals.py "$build" "${@:2}"
 fi
 
