@@ -18,6 +18,7 @@
 #include "conchoid/intersect/unfold.hpp"
 #include "conchoid/sim/clamp_edges.hpp"
 #include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/sim/ligament_rule.hpp"
 #include "conchoid/sim/nearly_through.hpp"
 #include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -28,8 +29,6 @@ namespace {
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 constexpr int kUnresolvedFrames = 3;      // in a row, after which what is left to break is looked at
-// × area of the cracks: what is left of a body, not a chip off one that a young crack could still cross.
-constexpr double kLargestShareLeft = 0.2;
 constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
 constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
 
@@ -135,9 +134,6 @@ struct Fracture::State {
   bool is_told(double volume);
   bool separated();
   bool parts(const std::function<bool(const LastLigament&)>& breaks);
-  bool barred() const;
-  bool unresolved() const;
-  bool driven(const LastLigament& ligament, double factor) const;
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -170,52 +166,18 @@ bool Fracture::State::parts(const std::function<bool(const LastLigament&)>& brea
   return parted.has_value();
 }
 
-// Whether the elements cannot resolve the opening somewhere.
-bool Fracture::State::unresolved() const {
-  const double r = body->crack_edge;
-  for (std::size_t i = 0; i < crack.points.size(); ++i)
-    if (!openings[i].known ||
-        opening_from_intensity(openings[i].intensity, r, m).norm() > kLargestOpening * r)
-      return true;
-  return crack.points.empty();
-}
-
-// Whether another crack bars a front's way.
-bool Fracture::State::barred() const {
-  return std::any_of(crack.points.begin(), crack.points.end(), [&](const FrontPoint& point) {
-    return crack.sheet.state[point.node] == FrontState::arrested;
-  });
-}
-
-// Whether the crack would run on at the rim of the ligament, even if K were less by a factor.
-bool Fracture::State::driven(const LastLigament& ligament, double factor) const {
-  if (carried > 0 || ligament.faces.empty() || crack.points.empty()) return true;
-  for (std::size_t i = 0; i < crack.points.size(); ++i) {
-    if (openings[i].known && decisions[i].drive <= factor * decisions[i].toughness) continue;
-    const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
-    if (std::any_of(ligament.faces.begin(), ligament.faces.end(),
-                    [&](const Vec3& y) { return (x - y).norm() < kWidestLigament * body->crack_edge; }))
-      return true;
-  }
-  return false;
-}
-
 // Whether what still holds the body together breaks at once: driven beyond what it bears, and too narrow for
 // the elements, or, where no front can go on, whatever is left.
 bool Fracture::State::ligament_breaks(bool at_end) {
   if (body->infinite() || openings.size() != crack.points.size()) return false;
   // A front that has a single ligament to go mostly takes it in a frame or two.
-  unresolved_frames = unresolved() ? unresolved_frames + 1 : 0;
-  const double r = body->crack_edge;
-  if (!at_end && carried == 0 && !barred() && unresolved_frames < kUnresolvedFrames &&
-      !nearly_through(crack, surface_tree, kWidestOverloadedLigament * r))
+  const FrontReadings front{crack, openings, decisions, m, body->crack_edge, carried > 0};
+  unresolved_frames = is_unresolved(front) ? unresolved_frames + 1 : 0;
+  if (!at_end && carried == 0 && !is_barred(crack) && unresolved_frames < kUnresolvedFrames &&
+      !nearly_through(crack, surface_tree, kWidestOverloadedLigament * body->crack_edge))
     return false;
   const auto breaks = [&](const LastLigament& ligament) {
-    if (ligament.half_width <= 0.5 * kThinnestLigament * r) return true;  // nothing tells its K
-    if (at_end || ligament.half_width <= 0.5 * kWidestLigament * r) return driven(ligament, 1);
-    const double left = static_cast<double>(ligament.faces.size()) * std::pow(ligament.grid->size(), 2);
-    return ligament.half_width <= 0.5 * kWidestOverloadedLigament * r &&
-           left <= kLargestShareLeft * surface_area(crack.trimmed) && driven(ligament, kOverloadedRim);
+    return ligament_breaks_at_once(ligament, front, at_end);
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
