@@ -261,7 +261,8 @@ void Breakup::State::end_first(StopReason reason) {
 void Breakup::State::end_piece() {
   if (!grown() || interrupted()) return;
   std::optional<Pieces> clean;
-  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i)
+  const std::size_t ways = fracture->parted() != nullptr ? 1 : kShifts.size();  // what has parted it stays
+  for (std::size_t i = 0; i < ways && !clean; ++i)
     clean = solid_pieces(*fracture, output, kShifts[i] * body->surface_edge);
   if (!clean) {
     warnings.push_back(
