@@ -5,6 +5,7 @@
 
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
+#include "conchoid/sim/mended_fragment.hpp"
 
 namespace conchoid {
 namespace {
@@ -16,6 +17,21 @@ std::size_t sheet_triangles(const std::vector<Fragment>& fragments) {
     for (std::size_t t = 0; t < f.source.size(); ++t)
       if (f.face_kind[t] == FaceKind::fracture) count = std::max(count, f.source[t].index() + 1);
   return count;
+}
+
+// The volume and mass of a piece go to its parts: what mending it took or added (mend_fragment(), a millionth at most) is
+// none of theirs.
+void share_out(const Fragment& whole, std::vector<Fragment>& parts) {
+  double volume = 0;
+  for (const Fragment& part : parts)
+    volume += part.volume;
+  const double ratio = whole.volume / volume;
+  if (!(std::abs(ratio - 1) <= kMendedVolume)) return;
+  for (Fragment& part : parts) {
+    part.volume *= ratio;
+    part.mass *= ratio;
+    part.inertia *= ratio;
+  }
 }
 
 TriMesh slits_of(const Fragment& piece) {
@@ -85,6 +101,7 @@ std::size_t BrokenPieces::replace(std::size_t id, Pieces parts) {
   remove_slits(all_.crack, entries_[id].fragment);
   append(all_.crack, parts.crack);
   all_.warnings.insert(all_.warnings.end(), parts.warnings.begin(), parts.warnings.end());
+  share_out(entries_[id].fragment, parts.fragments);
   for (Fragment& part : parts.fragments) {
     trace_back(part, entries_[id].fragment);
     entries_.push_back({std::move(part)});

@@ -14,8 +14,7 @@
 namespace conchoid {
 namespace {
 
-constexpr double kMendedVolume = 1e-6;  // × volume of the piece
-constexpr int kMostRings = 3;           // of triangles around a fold
+constexpr int kMostRings = 3;  // of triangles around a fold
 
 bool is_solid(const TriMesh& mesh) {
   return is_watertight(mesh) && self_intersections(mesh, 1).empty();

@@ -4,6 +4,9 @@
 
 namespace conchoid {
 
+/// × volume of a piece: what mending it may take or add.
+inline constexpr double kMendedVolume = 1e-6;
+
 /// Whether a piece is closed and passes nowhere through itself.
 bool is_solid(const Fragment& fragment);
 
