@@ -97,25 +97,25 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
 }
 
 std::vector<std::string> quadratic_warnings(const CoarseWalls& walls) {
-  constexpr double advised_ratio = 8;  // edge over thickness
-  const double shown = shown_bending_by_quadratic(walls.edge / walls.thickness);
+  const double shown = walls.shown_by_quadratic();
   if (shown >= least_shown) return {};
   return {fmt::format(
       "quadratic elements of {:.2g} m on a wall of {:.2g} m ({:.0f} % of the surface) may show as little as "
       "{:.0f} % of the bending stress; use edges of at most {:.2g} m there",
-      walls.edge, walls.thickness, 100 * walls.share, 100 * shown, advised_ratio * walls.thickness)};
+      walls.edge, walls.thickness, 100 * walls.share, 100 * shown, walls.quadratic_edge)};
 }
 
-// Loads on cracks are those of quadratic elements, the body that opens around them is one of linear ones.
 std::vector<std::string> response_warnings(const PreparedBody& body) {
   if (!body.quadratic) return {};
   const auto walls = coarse_walls(body.surface);
   if (!walls) return {};
+  const double shown = shown_intensity(walls->edge / walls->thickness);
+  if (shown >= least_shown) return {};
   return {fmt::format(
-      "cracks feel the stress of quadratic elements, but the wall of {:.2g} m bends around them as linear "
-      "elements of {:.2g} m let it, with about {:.0f} % of its compliance: cracks start where they should, "
-      "and open less than they should once they are longer than the wall is thick",
-      walls->thickness, walls->edge, 100 * walls->shown)};
+      "cracks start where the stress of quadratic elements says, but in a wall of {:.2g} m with elements of "
+      "{:.2g} m they show about {:.0f} % of their K; edges no longer than {:.2g} m where it breaks "
+      "(body.remesh, and a [[region]] with edge = {:.2g}) show nine tenths",
+      walls->thickness, walls->edge, 100 * shown, walls->thickness, walls->thickness)};
 }
 
 }  // namespace
@@ -125,9 +125,7 @@ std::vector<std::string> element_warnings(const PreparedBody& body) {
   const auto walls = coarse_walls(body.surface);
   if (!walls) return {};
   if (body.quadratic) return quadratic_warnings(*walls);
-  const auto n = static_cast<double>(body.surface.triangle_count());
-  return {fmt::format("{}; or run.elements = \"quadratic\", with {:.2g} GB of memory for these elements",
-                      walls->text(), 1e-9 * quadratic_bytes(n))};
+  return {walls->text()};
 }
 
 std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack,
