@@ -137,6 +137,17 @@ TEST(FollowThickness, StoutBodiesComeOutTheSameToTheBit) {
   }
 }
 
+TEST(FollowThickness, ALimitOnAPatchSmallerThanTheEdgesAroundIsSeen) {
+  const EdgeLimit limit{[](const Vec3& x) { return (x - Vec3(0.03, 0.02, 0.01)).norm() < 0.01; }, 0.005};
+  const TriMesh mesh =
+      remesh(box_mesh({1, 1, 0.02}, 1, 1, 1), 1500, {.follow_thickness = true, .limits = {limit}});
+  int inside = 0;
+  for (const auto& corners : mesh.corners)
+    inside +=
+        std::all_of(corners.begin(), corners.end(), [&](NodeId n) { return limit.holds(mesh.positions[n]); });
+  EXPECT_GE(inside, 4);
+}
+
 TEST(FollowThickness, LimitsAreKeptWhateverItCostsElsewhere) {
   const TriMesh plate = box_mesh({1, 1, 0.02}, 10, 10, 1);
   const EdgeLimit limit{[](const Vec3& x) { return x.x() < 2.6; }, 0.021};
