@@ -84,6 +84,7 @@ TEST(QuadraticRows, AgreeWithThoseOfLinearElementsWhereTheseAreContained) {
         largest_traction = std::max(largest_traction, expected.norm());
       }
     }
+  ASSERT_GT(largest * largest_traction, 0);  // and no NaN
   EXPECT_LT(error, 1e-6 * largest);
   EXPECT_LT(traction_error, 1e-6 * largest_traction);
 }
