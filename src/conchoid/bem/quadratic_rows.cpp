@@ -15,11 +15,6 @@ struct LocalFunction {
   Vec3 curl;
 };
 
-struct LocalRows {
-  std::size_t index;
-  DenseMatrix rows;
-};
-
 /// Surface curl of a quadratic function of a panel at barycentric coordinates l. docs/theory.md (B10)
 Vec3 curl_at(const std::array<Vec3, 3>& c, int function, const Vec3& l) {
   if (function < 3) return (4 * l[function] - 1) * c[static_cast<std::size_t>(function)];
@@ -63,16 +58,19 @@ class Assembler {
     std::vector<std::size_t> panels;
     for (std::size_t x = 0; x < test_.size(); ++x)
       if (!test_[x].empty()) panels.push_back(x);
+    std::vector<LocalRows> parts(batch);  // laid out once: they are large
     for (std::size_t start = 0; start < panels.size(); start += batch) {
-      std::vector<std::vector<LocalRows>> parts(std::min(batch, panels.size() - start));
-      parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+      const std::size_t count = std::min(batch, panels.size() - start);
+      parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-          parts[i] = rows_of_panel(panels[start + i]);
+          fill_rows(panels[start + i], parts[i]);
       });
-      for (const auto& part : parts)
-        for (const LocalRows& local : part)
-          for (std::size_t i = 0; i < local.rows.data.size(); ++i)
-            out[local.index].data[i] += local.rows.data[i];
+      for (std::size_t part = 0; part < count; ++part)
+        for (std::size_t f = 0; f < test_[panels[start + part]].size(); ++f) {
+          std::vector<double>& to = out[test_[panels[start + part]][f].index].data;
+          for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] += parts[part][f].data[i];
+        }
     }
     for (std::size_t w = 0; w < wanted_.size(); ++w)
       keep_unknown(enriched_.functions[wanted_[w]].free, out[w]);
@@ -80,10 +78,13 @@ class Assembler {
   }
 
  private:
-  std::vector<LocalRows> rows_of_panel(std::size_t x) const {
-    std::vector<LocalRows> out;
-    for (const LocalFunction& f : test_[x])
-      out.push_back({f.index, DenseMatrix(3, unknowns_)});
+  /// Of the functions on one panel; there may be more.
+  using LocalRows = std::vector<DenseMatrix>;
+
+  void fill_rows(std::size_t x, LocalRows& out) const {
+    if (out.size() < test_[x].size()) out.resize(test_[x].size(), DenseMatrix(3, unknowns_));
+    for (std::size_t f = 0; f < test_[x].size(); ++f)
+      std::fill(out[f].data.begin(), out[f].data.end(), 0.0);
     for (std::size_t y = 0; y < enriched_.surface_count; ++y) {
       const std::array<SingleLayerPair, 3> pairs =
           summed_over_x(body_.integrator.single_layer(enriched_.panels[x], enriched_.panels[y]));
@@ -93,11 +94,10 @@ class Assembler {
       add_displacements(x, y, blocks, out);
       add_tractions(x, y, blocks, out);
     }
-    return out;
   }
 
   void add_displacements(std::size_t x, std::size_t y, const std::array<PairBlocks, 3>& blocks,
-                         std::vector<LocalRows>& out) const {
+                         LocalRows& out) const {
     const std::size_t parent = enriched_.parent[y].index();
     for (int k = 0; k < 6; ++k) {
       const int unknown = body_.unknown[body_.nodes[parent][static_cast<std::size_t>(k)]];
@@ -105,20 +105,20 @@ class Assembler {
       const std::size_t column = tractions_ + 3 * static_cast<std::size_t>(unknown);
       for (std::size_t b = 0; b < 3; ++b) {
         const Vec3 curl = curl_at(body_.corners.curls[parent], k, enriched_.parent_values[y][b]);
-        for (std::size_t f = 0; f < out.size(); ++f)
-          out[f].rows.add(0, column, blocks[b].hypersingular(test_[x][f].curl, curl));
+        for (std::size_t f = 0; f < test_[x].size(); ++f)
+          out[f].add(0, column, blocks[b].hypersingular(test_[x][f].curl, curl));
       }
     }
   }
 
   void add_tractions(std::size_t x, std::size_t y, const std::array<PairBlocks, 3>& blocks,
-                     std::vector<LocalRows>& out) const {
+                     LocalRows& out) const {
     const std::size_t parent = enriched_.parent[y].index();
     const int held = body_.corners.traction_unknown[parent];
     if (held < 0) return;
     const QuadraticDoubleLayerPair laplace =
         body_.integrator.double_layer(enriched_.panels[y], enriched_.panels[x]);
-    for (std::size_t f = 0; f < out.size(); ++f) {
+    for (std::size_t f = 0; f < test_[x].size(); ++f) {
       const std::array<double, 3>& w = test_[x][f].w;
       for (std::size_t b = 0; b < 3; ++b) {
         double dl = 0;  // of the linear function, by its values in the six nodes
@@ -128,8 +128,8 @@ class Assembler {
         const Mat3 block = blocks[b].double_layer(test_[x][f].curl, dl).transpose();
         for (int a = 0; a < 3; ++a)
           if (const double value = enriched_.parent_values[y][b][a]; value != 0)
-            out[f].rows.add(0, 9 * static_cast<std::size_t>(held) + 3 * static_cast<std::size_t>(a),
-                            value * block);
+            out[f].add(0, 9 * static_cast<std::size_t>(held) + 3 * static_cast<std::size_t>(a),
+                       value * block);
       }
     }
   }
