@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
 #include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -45,8 +46,17 @@ void add_cracks(const Scene& scene, const std::vector<TriMesh>& of_body, Prepare
     move(sheet, -out.origin);
     out.cracks.push_back(out.infinite() ? std::move(sheet) : sheet_in_body(sheet, out.surface, where));
   };
-  for (const TriMesh& sheet : of_body)
-    add(sheet, scene.body.where);
+  for (TriMesh sheet :
+       of_body) {  // of a piece, whose boundary elements may leave out what a small one lies in
+    move(sheet, -out.origin);
+    if (std::optional<TriMesh> inside = sheet_if_in_body(sheet, out.surface))
+      out.cracks.push_back(std::move(*inside));
+    else
+      warning(
+          fmt::format("a crack of {:.2g} m² that was left in a piece lies outside of its boundary elements "
+                      "and ends there",
+                      surface_area(sheet)));
+  }
   for (const CrackSpec& spec : scene.cracks)
     add(crack_sheet(spec, out.crack_edge), spec.where);
   if (out.infinite() && out.cracks.empty())
