@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/sim/scene_parser.hpp"
