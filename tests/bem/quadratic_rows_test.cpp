@@ -32,7 +32,8 @@ struct Block {
                       : c.x() > 0.49 ? BoundaryKind::holding(x)
                                      : BoundaryKind::traction);
     }
-    cut = corefine(mesh, disc_crack({-0.487, 0.03, 0.07}, {0.1, 0.2, 1}, 0.3, {.edge = 0.13}), {.merge = 0.1});
+    cut =
+        corefine(mesh, disc_crack({-0.487, 0.03, 0.07}, {0.1, 0.2, 1}, 0.3, {.edge = 0.13}), {.merge = 0.1});
   }
 };
 
