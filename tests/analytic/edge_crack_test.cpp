@@ -66,5 +66,29 @@ INSTANTIATE_TEST_SUITE_P(Strips, EdgeCrack,
                                          Strip{3, 0.5, 0.07}, Strip{5, 0.3, 0.0}, Strip{5, 0.3, 0.07},
                                          Strip{5, 0.5, 0.0}, Strip{5, 0.5, 0.07}));
 
+// Without lateral contraction the front is in plane strain up to the sides of the body, whose elements are up to 2.5
+// crack edges long: near the mouth they are divided.
+TEST(EdgeCrackWithoutContraction, EveryNodeOfTheFrontWithinFivePercentOfTada) {
+  const double stress = 1e6, depth = 0.5;
+  const test::TemporaryFolder folder;
+  for (const int cells : {4, 7}) {
+    const std::string file =
+        test::write_mesh_in(folder, "strip.obj", box_mesh({1, 0.5, 4}, cells, cells / 2, 4 * cells));
+    const std::string text =
+        test::mesh_body_text(file) + test::material_text({.nu = 0}) + test::resolution_text(0.1, 0.02) +
+        test::region_text("top", "[0, 0, 1, 1.99]") + test::region_text("bottom", "[0, 0, -1, 1.99]") +
+        test::boundary_text("top", "traction", {0, 0, stress}) +
+        test::boundary_text("bottom", "traction", {0, 0, -stress}) +
+        "[[crack]]\nkind = 'rectangle'\ncenter = [-0.3, 0, 0.03]\nedges = [[0.6, 0, 0], [0, 0.7, 0]]\n";
+    const SifReport report = compute_sifs(test::scene_from_text(text));
+    ASSERT_EQ(report.fronts.size(), 1u);
+    for (const SifNode& node : report.fronts[0].nodes) {
+      const Vec3 K = node.intensity / exact_intensity(depth, stress);
+      EXPECT_NEAR(K[0], 1, 0.05) << cells << " cells, y = " << node.position.y();
+      EXPECT_LT(K.tail<2>().cwiseAbs().maxCoeff(), 0.015) << cells << " cells, y = " << node.position.y();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace conchoid

@@ -87,5 +87,15 @@ TEST(KinkedStrip, TwoRowsAfterAKinkTheIntensityIsThatOfTheKinkedCrack) {
   }
 }
 
+// A slight kink in tension alone, short against the crack: K_II = θ K_I / 2 (Cotterell & Rice 1980), however many rows
+// lie beyond it. What lies behind it is turned by θ and must not be taken for sliding.
+TEST(KinkedStrip, ASlightKinkIsNotTakenForSliding) {
+  const double theta = 8 * std::numbers::pi / 180;
+  for (const int rows : {1, 2, 4}) {
+    const Vec3 K = intensity(-theta, rows, 0);
+    EXPECT_NEAR(K[1] / K[0], -0.5 * theta, 0.1 * theta) << rows << " rows";
+  }
+}
+
 }  // namespace
 }  // namespace conchoid

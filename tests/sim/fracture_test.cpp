@@ -145,10 +145,10 @@ TEST(Fracture, AnIntactBodySaysSoAndStaysSo) {
 TEST(Fracture, AFrameLimitIsTheCallersAndTheFractureGoesOn) {
   const Scene scene = cube();
   Fracture whole = fracture_of(scene), halves = fracture_of(scene);
-  run_frames(whole, 5);
-  EXPECT_EQ(run_frames(halves, 3), StopReason::frame_limit);
+  run_frames(whole, 4);
+  EXPECT_EQ(run_frames(halves, 2), StopReason::frame_limit);
   EXPECT_FALSE(halves.visible_sheets().empty());
-  EXPECT_EQ(run_frames(halves, 5), StopReason::frame_limit);
+  EXPECT_EQ(run_frames(halves, 4), StopReason::frame_limit);
   EXPECT_EQ(halves.crack().sheet.mesh.positions, whole.crack().sheet.mesh.positions);
 }
 

@@ -54,7 +54,7 @@ TEST_P(PulledCubeAt, OneCrackSeparatesItIntoTwoPieces) {
   const double along_pull = std::abs(start_normal(result).dot(Vec3(std::sin(slope), 0, std::cos(slope))));
   if (GetParam() == 0) {
     EXPECT_GT(along_pull, std::cos(10 * std::numbers::pi / 180));
-    EXPECT_NEAR(surface_area(result.crack), 1, 0.05);  // flat and across
+    EXPECT_NEAR(surface_area(result.crack), 1, 0.06);  // all but flat and across: 0.02 at half the crack edge
   }
   RecordProperty("degrees_to_pull", test::text(std::acos(along_pull) * 180 / std::numbers::pi));
   RecordProperty("smaller", test::text(result.fragments[1].volume));

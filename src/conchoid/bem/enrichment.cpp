@@ -120,8 +120,9 @@ class SpaceBuilder {
 
   void add_functions(NodeId node) {
     const bool on_mouth = !mouth_edges_[node.index()].empty();
-    if (crack_star_.around(node).empty() || held_[node.index()].isIdentity(0)) return;
-    if (on_mouth && !is_surface_node(node)) add_hat(node);
+    if (held_[node.index()].isIdentity(0)) return;
+    if (!is_surface_node(node) && !surface_star_.around(node).empty()) add_hat(node);
+    if (crack_star_.around(node).empty()) return;
     if (on_front_[node.index()]) return;
     if (!on_mouth) return add_crack_hat(node);
     if (mouth_edges_[node.index()].size() == 2) add_mouth(node);

@@ -150,6 +150,7 @@ class RowAssembler {
     if (memory_ && at_front(x)) made_[x] = PairMemory::row_of(space_.panels.size());
     for (const LocalFunction& f : test_[x])
       out.push_back({f, empty_rows()});
+    Pieces pieces;
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
       const bool on_surface = y < space_.surface_count;
       const bool wanted = part_ == Part::sources ? on_surface && has_source(space_.parent[y])
@@ -160,14 +161,42 @@ class RowAssembler {
         row->single_layer[y] = integrals;
         row->has_single[y] = 1;
       }
-      const PairBlocks blocks(integrals, body_.m);
-      if (part_ == Part::all)
+      if (part_ == Part::all && !trial_[y].empty()) {
+        const PairBlocks blocks(integrals, body_.m);
         for (TestRows& t : out)
           for (const LocalFunction& g : trial_[y])
             t.rows.enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
-      if (on_surface) add_body(x, y, blocks, out);
+      }
+      if (!on_surface) continue;
+      if (space_.parent[y] != pieces.parent) {
+        add_body(pieces, out);
+        pieces = {space_.parent[y], {}, {}};
+      }
+      add_piece(x, y, integrals, pieces);
     }
+    add_body(pieces, out);
     return out;
+  }
+
+  // Integrals of a panel with the pieces of one triangle of the body, on which its functions are the same.
+  struct Pieces {
+    TriId parent;
+    SingleLayerPair single_layer{};
+    DoubleLayerPair double_layer{};
+  };
+
+  void add_piece(std::size_t x, std::size_t y, const SingleLayerPair& integrals, Pieces& pieces) {
+    pieces.single_layer.laplace += integrals.laplace;
+    for (std::size_t k = 0; k < integrals.tensor.size(); ++k)
+      pieces.single_layer.tensor[k] += integrals.tensor[k];
+    if (traction_columns(pieces.parent).none()) return;
+    const DoubleLayerPair dl = double_layer(x, y);
+    if (PairMemory::Row* row = kept_row(x)) {
+      row->double_layer[y] = dl;
+      row->has_double[y] = 1;
+    }
+    for (std::size_t k = 0; k < dl.size(); ++k)
+      pieces.double_layer[k] += dl[k];
   }
 
   bool has_source(TriId parent) const {
@@ -219,26 +248,26 @@ class RowAssembler {
     return out;
   }
 
-  // Interaction with the body's own functions on surface piece y.
-  void add_body(std::size_t x, std::size_t y, const PairBlocks& blocks, std::vector<TestRows>& out) {
-    const std::size_t parent = space_.parent[y].index();
-    const auto& nodes = body_.surface.corners[space_.parent[y]];
+  Columns traction_columns(TriId t) const {
+    return columns(body_.traction_unknown[t.index()], 0, source_of_triangle_[t.index()]);
+  }
+
+  // Interaction with the body's own functions.
+  void add_body(const Pieces& pieces, std::vector<TestRows>& out) const {
+    if (!pieces.parent.valid()) return;
+    const PairBlocks blocks(pieces.single_layer, body_.m);
+    const auto& nodes = body_.surface.corners[pieces.parent];
     for (int k = 0; k < 3; ++k) {
       const std::size_t node = nodes[k].index();
       const Columns to = columns(body_.displacement_unknown[node], body_.tractions(), source_of_node_[node]);
       if (to.none()) continue;
       for (TestRows& t : out)
-        to.add(t.rows, blocks.hypersingular(t.f.curl, body_.curls[parent][k]));
+        to.add(t.rows, blocks.hypersingular(t.f.curl, body_.curls[pieces.parent.index()][k]));
     }
-    const Columns to = columns(body_.traction_unknown[parent], 0, source_of_triangle_[parent]);
+    const Columns to = traction_columns(pieces.parent);
     if (to.none()) return;
-    const DoubleLayerPair dl = double_layer(x, y);
-    if (PairMemory::Row* row = kept_row(x)) {
-      row->double_layer[y] = dl;
-      row->has_double[y] = 1;
-    }
     for (TestRows& t : out)
-      to.add(t.rows, blocks.double_layer(t.f.curl, weigh(dl, t.f.w)).transpose());
+      to.add(t.rows, blocks.double_layer(t.f.curl, weigh(pieces.double_layer, t.f.w)).transpose());
   }
 
   const BodyDiscretisation& body_;

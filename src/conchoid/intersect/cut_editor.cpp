@@ -70,17 +70,24 @@ double CutEditor::quality(const Corners& c, const CutChange& change, const Vec3&
 
 bool CutEditor::improves_shape(const CutChange& change) const {
   double before = 1, after = 1;
+  long flat = 0;  // pieces without area, how many more there are
   for (const int l : {surface_layer, sheet_layer}) {
     const TriMesh& mesh = l == surface_layer ? surface_ : sheet_;
-    for (const std::size_t p : change.removed[l])
-      before = std::min(
-          before, quality(layers_[l][p].corners, change, area_vector(mesh, layers_[l][p].parent), false));
-    for (const CutPiece& p : change.added[l])
-      after = std::min(after, quality(p.corners, change, area_vector(mesh, p.parent), true));
+    for (const std::size_t p : change.removed[l]) {
+      const double q = quality(layers_[l][p].corners, change, area_vector(mesh, layers_[l][p].parent), false);
+      before = std::min(before, q);
+      flat -= q <= 0;
+    }
+    for (const CutPiece& p : change.added[l]) {
+      const double q = quality(p.corners, change, area_vector(mesh, p.parent), true);
+      after = std::min(after, q);
+      flat += q <= 0;
+    }
   }
-  // a node less is a gain in itself, though other short edges beside it may still wait for their turn
-  const double gain = !change.gone.empty() ? 0.3 : 1 + 1e-6;
-  return after > 0 && after > std::max(before, 0.0) * gain;
+  // a node less is a gain in itself, though other short edges beside it may still wait for their turn, or other
+  // nodes at the same place
+  if (change.gone.empty()) return after > 0 && after > std::max(before, 0.0) * (1 + 1e-6);
+  return after > 0 ? after > 0.3 * before : flat < 0 && after >= before;
 }
 
 /// Pieces around a node after the change.

@@ -1,6 +1,7 @@
 #include "conchoid/sim/crack_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -8,12 +9,18 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
+#include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/longest_edge_bisection.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr double kSliver = 5e-3;   // altitude over longest edge that needs no other try
 constexpr double kNothing = 1e-9;  // below it a piece has no area
+// × r̄, longest edge of the surface's pieces at a crack, and how much longer they become with each unit of distance
+// from it: K at the ends of a mouth is within a few hundredths then (docs/verification.md).
+constexpr double kMouthEdge = 1;
+constexpr double kMouthEdgeGrowth = 1;
 
 // Distance of x behind the front at node a: across the front's tangent.
 double distance_behind(const Vec3& front, const FrontFrame& frame, const Vec3& x) {
@@ -37,12 +44,47 @@ double worst_piece(const CutComplex& cut) {
   return worst;
 }
 
+// Squared distance of a triangle from the sheet, at its corners and the middles of its edges and of itself.
+double squared_distance(const ClosestPointTree& sheet, const Triangle& t) {
+  double least = sheet.closest((t[0] + t[1] + t[2]) / 3).squared_distance;
+  for (int k = 0; k < 3; ++k) {
+    least = std::min(least, sheet.closest(t[k]).squared_distance);
+    least = std::min(least, sheet.closest(0.5 * (t[k] + t[(k + 1) % 3])).squared_distance);
+  }
+  return least;
+}
+
+// The surface as fine as the sheet where that is near: there its displacement changes within a crack edge.
+DividedMesh divide_near(const TriMesh& surface, const TriMesh& sheet, double crack_edge) {
+  const BoxTree boxes(sheet);
+  const ClosestPointTree near(sheet);
+  return bisect_longest_edges(surface, [&](const Triangle& t) {
+    const double longest = std::sqrt(
+        std::max({(t[0] - t[1]).squaredNorm(), (t[1] - t[2]).squaredNorm(), (t[2] - t[0]).squaredNorm()}));
+    const double reach = (longest - kMouthEdge * crack_edge) / kMouthEdgeGrowth;
+    if (!(reach > 0)) return false;
+    const Vec3 margin = Vec3::Constant(reach);
+    const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    bool found = false;
+    boxes.visit_overlapping({low - margin, high + margin}, [&](TriId) { found = true; });
+    return found && squared_distance(near, t) < reach * reach;
+  });
+}
+
+// As if the undivided surface had been cut: the nodes of its divisions are none of its own.
+void belong_to(const TriMesh& surface, const std::vector<TriId>& parent, CutComplex& cut) {
+  cut.surface_node_count = surface.node_count();
+  for (TriId& t : cut.surface_parent)
+    t = parent[t.index()];
+}
+
 // Where the sheet runs exactly through nodes of the surface, or along one of its triangles, the pieces
 // degenerate. The boundary elements then see it displaced along its normal by a hundredth of a crack edge or
 // a few, the first that leaves no sliver.
 CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double crack_edge) {
   CutComplex best;
   double best_piece = -1;
+  const DividedMesh divided = divide_near(surface, sheet, crack_edge);
   for (double shift : {0.0, 0.01, -0.013, 0.024, -0.031, 0.045, -0.057, 0.08}) {
     TriMesh moved = sheet;
     if (shift != 0) {
@@ -51,7 +93,8 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
         moved.positions[NodeId(i)] += shift * crack_edge * normals[NodeId(i)];
     }
     try {
-      CutComplex cut = corefine(surface, moved, {kMouthMerge});
+      CutComplex cut = corefine(divided.mesh, moved, {kMouthMerge});
+      belong_to(surface, divided.parent, cut);
       const double piece = worst_piece(cut);
       if (piece > best_piece) {
         best = std::move(cut);
@@ -69,15 +112,30 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
   return best;
 }
 
+// Area vectors around the nodes of the cut's sheet, in the planes of the triangles it was cut from: at the mouth little
+// may be left of one, and that turned where nodes merged.
+IdVector<NodeId, Vec3> area_vectors_of_whole_sheet(const CutComplex& cut, const TriMesh& sheet) {
+  IdVector<NodeId, Vec3> sum(cut.positions.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < cut.sheet.size(); ++t) {
+    const auto& c = cut.sheet[TriId(t)];
+    const double area =
+        area_vector2(cut.positions[c[0]], cut.positions[c[1]], cut.positions[c[2]]).norm() / 2;
+    for (const NodeId node : c)
+      sum[node] += area * unit_normal(sheet, cut.sheet_parent[t]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) {
   const bool infinite = surface.corners.empty();
-  state.cut = infinite ? uncut_sheet(state.sheet.mesh)
-                       : cut_for_elements(surface, embedded_part(state.sheet.mesh), crack_edge);
+  const TriMesh sheet = infinite ? state.sheet.mesh : embedded_part(state.sheet.mesh);
+  state.cut = infinite ? uncut_sheet(sheet) : cut_for_elements(surface, sheet, crack_edge);
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth,
-                             state.sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets);
+                             state.sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets,
+                             area_vectors_of_whole_sheet(state.cut, sheet));
   std::vector<char> on_mouth(state.cut.positions.size(), 0), used(state.cut.positions.size(), 0);
   for (const Edge& e : state.cut.mouth)
     on_mouth[e.a.index()] = on_mouth[e.b.index()] = 1;

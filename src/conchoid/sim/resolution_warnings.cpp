@@ -89,8 +89,8 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
     const double edge = d.edges / static_cast<double>(d.count);
     if (d.depth < least_rows * edge)
       out.push_back(fmt::format(
-          "the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K may be "
-          "less than half of the true one; use resolution.crack = {:.2g}, or a mesh of three rows",
+          "the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K "
+          "is read from a single row of openings and may be a tenth off; use resolution.crack = {:.2g}, or a mesh of three rows",
           place(d.at + body.origin, edge), d.depth, edge, d.depth / 3));
   }
   return out;

@@ -101,6 +101,11 @@ void start_at_smallest_id(std::vector<NodeId>& ring) {
 }
 
 std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth, FrontNormals kind) {
+  return find_fronts(crack, mouth, kind, node_area_vectors(crack));
+}
+
+std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth, FrontNormals kind,
+                               const IdVector<NodeId, Vec3>& normals) {
   std::vector<Front> fronts = FrontWalk(crack, mouth).fronts();
   for (Front& front : fronts)
     if (front.closed) start_at_smallest_id(front.nodes);
@@ -108,7 +113,6 @@ std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mo
     return *std::min_element(x.nodes.begin(), x.nodes.end()) <
            *std::min_element(y.nodes.begin(), y.nodes.end());
   });
-  const auto normals = node_area_vectors(crack);
   for (Front& front : fronts)
     front.frames = front_frames(crack, normals, front.nodes, front.closed, kind);
   return fronts;

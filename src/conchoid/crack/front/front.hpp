@@ -30,5 +30,8 @@ struct Front {
 /// @param mouth  boundary edges on the body's surface (sorted), empty for a crack in the inside
 std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth,
                                FrontNormals kind = FrontNormals::facets);
+/// The same with the area vectors around the nodes at hand, as those of the whole sheet that `crack` is part of.
+std::vector<Front> find_fronts(const TriMesh& crack, const std::vector<Edge>& mouth, FrontNormals kind,
+                               const IdVector<NodeId, Vec3>& normals);
 
 }  // namespace conchoid

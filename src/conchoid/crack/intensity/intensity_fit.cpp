@@ -69,6 +69,12 @@ double along_front(const TriMesh& crack, const Front& front, std::size_t i, cons
   return ahead;
 }
 
+Vec3 point_at(const TriMesh& crack, const Front& front, const FrontFoot& foot) {
+  const std::size_t next = next_index(foot.edge, front.nodes.size(), front.closed);
+  const Vec3 &a = crack.positions[front.nodes[foot.edge]], &b = crack.positions[front.nodes[next]];
+  return a + foot.fraction * (b - a);
+}
+
 double weight(const OpeningSample& sample, bool galerkin_openings) {
   const double thin = std::min(1.0, sample.r / kFitFullWeight);
   const double s = sample.s / kFitReachAlong;
@@ -184,9 +190,11 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
     sample.row = rows[node.index()];
     const Vec3 du = opening[node] / std::sqrt(foot.distance);
     const KinkBehind& kink = kinks[node.index()];
+    const double height = frame.e1.dot(crack.positions[node] - point_at(crack, front, foot));
     sample.turn = kink.turn;
     sample.kink = kink.kink;
     sample.rate = without_kink(in_frame(frame, du), kink.kink);
+    sample.rate[1] -= sample.rate[0] * height / (2 * foot.distance);  // (S12)
     samples.push_back(sample);
   }
   if (galerkin_openings) remove_element_bias(samples);
