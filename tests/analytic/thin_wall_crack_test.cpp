@@ -6,12 +6,11 @@
 #include <numbers>
 
 #include "conchoid/mesh/models.hpp"
-#include "conchoid/remesh/wall_resolution.hpp"
 #include "conchoid/sim/reports.hpp"
 #include "scenes.hpp"
 
 // A crack halfway through a wall, with elements as long as the wall is thick and longer: how the wall bends in answer to it
-// decides K. Tada's handbook, plane strain: here ν = 0, so that the whole width is alike.
+// decides K, which the pieces near the crack let it. Tada's handbook, plane strain: here ν = 0, so that the whole width is alike.
 namespace conchoid {
 namespace {
 
@@ -76,22 +75,23 @@ TEST(HandbookOfStrips, HalfwayThrough) {
 
 struct Case {
   Load load;
-  double edge, linear, quadratic;  // what they show
+  double edge;
 };
 
 class ThinWallCrack : public testing::TestWithParam<Case> {};
 
-TEST_P(ThinWallCrack, OpensInQuadraticElementsCloserToTheHandbook) {
-  const auto& [load, edge, linear, quadratic] = GetParam();
-  EXPECT_NEAR(shown(load, edge, "linear"), linear, 0.02);
-  EXPECT_NEAR(shown(load, edge, "quadratic"), quadratic, 0.02);
-  EXPECT_NEAR(shown_intensity(edge / kThickness), quadratic, 0.07) << "what warnings say";
+TEST_P(ThinWallCrack, OpensAsTheHandbookSays) {
+  const auto& [load, edge] = GetParam();
+  for (const char* elements : {"linear", "quadratic"}) {
+    const double found = shown(load, edge, elements);
+    RecordProperty(elements, test::text(found));
+    EXPECT_NEAR(found, 1, 0.08) << elements;
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Strip, ThinWallCrack,
-    testing::Values(Case{Load::tension, 0.1, 0.835, 0.90}, Case{Load::bending, 0.1, 0.87, 0.985},
-                    Case{Load::tension, 0.2, 0.78, 0.87}, Case{Load::bending, 0.2, 0.765, 0.935},
-                    Case{Load::tension, 0.3, 0.73, 0.81}, Case{Load::bending, 0.3, 0.63, 0.855}));
+INSTANTIATE_TEST_SUITE_P(Strip, ThinWallCrack,
+                         testing::Values(Case{Load::tension, 0.1}, Case{Load::tension, 0.2},
+                                         Case{Load::tension, 0.3}, Case{Load::bending, 0.1},
+                                         Case{Load::bending, 0.2}, Case{Load::bending, 0.3}));
 
 }  // namespace conchoid

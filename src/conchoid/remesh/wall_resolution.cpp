@@ -15,7 +15,6 @@ namespace {
 
 constexpr double locking = 0.08, unpaired_locking = 0.006;  // of (h/t)², (h/t)⁴
 constexpr double quadratic_locking = 6e-7;                  // of (h/t)⁵
-constexpr double near_cracks = 0.07;                        // of h/t
 constexpr double opposite = 0.2;                            // × h: nodes so near lie opposite each other
 constexpr std::size_t most_samples = 50000;                 // triangles of a fine mesh that are measured
 constexpr double edges_per_size = 10;   // of stout parts, beside the cube root of the volume
@@ -120,10 +119,6 @@ double shown_bending(double edge_over_thickness, bool paired) {
 
 double shown_bending_by_quadratic(double edge_over_thickness) {
   return 1 / (1 + quadratic_locking * std::pow(edge_over_thickness, 5));
-}
-
-double shown_intensity(double edge_over_thickness) {
-  return 1 / (1 + near_cracks * edge_over_thickness);
 }
 
 std::optional<std::size_t> CoarseWalls::advised_triangles() const {

@@ -19,10 +19,6 @@ double shown_bending(double edge_over_thickness, bool paired);
 /// through the thickness, r 9 … 32. Where curvature is the same all over, nothing is missing.
 double shown_bending_by_quadratic(double edge_over_thickness);
 
-/// K of cracks in a wall of quadratic elements over the true one, about 1 / (1 + 0.07 r): how the wall gives way beside a
-/// crack changes over its thickness. Fitted to cracks halfway through strips in tension and bending, r 1 … 5.
-double shown_intensity(double edge_over_thickness);
-
 /// × thickness: edges that show nine tenths of the bending stress, with a margin for elements that differ.
 inline constexpr double wall_edge_share = 1, quadratic_wall_edge_share = 8;
 /// Less than this is worth a warning.

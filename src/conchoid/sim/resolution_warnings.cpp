@@ -90,7 +90,8 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
     if (d.depth < least_rows * edge)
       out.push_back(fmt::format(
           "the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K "
-          "is read from a single row of openings and may be a tenth off; use resolution.crack = {:.2g}, or a mesh of three rows",
+          "is read from a single row of openings and may be a tenth off; use resolution.crack = {:.2g}, or a "
+          "mesh of three rows",
           place(d.at + body.origin, edge), d.depth, edge, d.depth / 3));
   }
   return out;
@@ -103,19 +104,6 @@ std::vector<std::string> quadratic_warnings(const CoarseWalls& walls) {
       "quadratic elements of {:.2g} m on a wall of {:.2g} m ({:.0f} % of the surface) may show as little as "
       "{:.0f} % of the bending stress; use edges of at most {:.2g} m there",
       walls.edge, walls.thickness, 100 * walls.share, 100 * shown, walls.quadratic_edge)};
-}
-
-std::vector<std::string> response_warnings(const PreparedBody& body) {
-  if (!body.quadratic) return {};
-  const auto walls = coarse_walls(body.surface);
-  if (!walls) return {};
-  const double shown = shown_intensity(walls->edge / walls->thickness);
-  if (shown >= least_shown) return {};
-  return {fmt::format(
-      "cracks start where the stress of quadratic elements says, but in a wall of {:.2g} m with elements of "
-      "{:.2g} m they show about {:.0f} % of their K; edges no longer than {:.2g} m where it breaks "
-      "(body.remesh, and a [[region]] with edge = {:.2g}) show nine tenths",
-      walls->thickness, walls->edge, 100 * shown, walls->thickness, walls->thickness)};
 }
 
 }  // namespace
@@ -134,10 +122,7 @@ std::vector<std::string> resolution_warnings(const PreparedBody& body, const Cra
   const auto add = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(out));
   };
-  if (!body.infinite() && (growing || !body.cracks.empty())) {
-    add(response_warnings(body));
-    add(crack_edge_warnings(body));
-  }
+  if (!body.infinite() && (growing || !body.cracks.empty())) add(crack_edge_warnings(body));
   add(depth_warnings(body, crack));
   return out;
 }
