@@ -116,7 +116,7 @@ std::string defect_text(const SurfaceReport& r) {
 }
 
 std::string walls_text(const SurfaceReport& r) {
-  return r.coarse_walls ? "\n  thin walls: " + r.coarse_walls->text() : std::string();
+  return r.coarse_walls ? "\n  thin walls: " + r.coarse_walls->text_of_auto() : std::string();
 }
 
 std::string plan_text(RepairMethod method, double voxel) {
@@ -143,9 +143,6 @@ std::string advice_text(const SurfaceReport& r) {
   if (scale != 1 || r.advice->remesh) text += "\n    [body]";
   if (scale != 1) text += fmt::format("\n    scale = {}", scale);
   if (r.advice->remesh) text += fmt::format("\n    remesh = {}", *r.advice->remesh);
-  if (r.coarse_walls && !r.coarse_walls->affordable())
-    text += fmt::format("  # with {} it would show 90 % of the bending stress, here about {:.0f} %",
-                        r.coarse_walls->wanted_triangles, 100 * r.coarse_walls->shown_by_most());
   text += fmt::format("\n    [resolution]\n    crack = {:.3g}\n    surface = {:.3g}", r.advice->crack * scale,
                       r.advice->surface * scale);
   return text;
@@ -231,13 +228,15 @@ void add_walls(Json& json, const SurfaceReport& r) {
   json["thin_walls"] = nullptr;
   if (!r.coarse_walls) return;
   const CoarseWalls& walls = *r.coarse_walls;
-  json["thin_walls"] = {{"share", walls.share},
-                        {"edge", walls.edge},
-                        {"thickness", walls.thickness},
-                        {"shown_bending", walls.shown},
-                        {"wanted_edge", walls.wanted_edge},
-                        {"wanted_triangles", walls.wanted_triangles},
-                        {"text", walls.text()}};
+  json["thin_walls"] = {
+      {"share", walls.share},
+      {"edge", walls.edge},
+      {"thickness", walls.thickness},
+      {"elements", walls.quadratic_by_themselves() ? "quadratic" : "linear"},
+      {"shown_bending", walls.quadratic_by_themselves() ? walls.shown_by_quadratic() : walls.shown},
+      {"wanted_edge", walls.quadratic_edge},
+      {"wanted_triangles", walls.quadratic_triangles},
+      {"text", walls.text_of_auto()}};
 }
 
 void add_advice(Json& json, const SurfaceReport& r) {

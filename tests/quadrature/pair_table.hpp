@@ -73,6 +73,10 @@ inline std::vector<NamedPair> near_pairs() {
   add("gap 1e-3, tilted a little", tilted);
   tilted[1].z() += 1e-2;
   add("gap 1e-3, tilted more", tilted);
+  add("nearly flat on the face, touching with a corner",
+      {Vec3(0.2, 0.2, 0), Vec3(0.7, 0.1, 1e-6), Vec3(0.3, 0.5, 1e-6)});
+  add("nearly flat, touching with a corner, tilted",
+      {Vec3(0.2, 0.2, 0), Vec3(0.7, 0.1, 1e-3), Vec3(0.3, 0.5, 3e-4)});
   add("wedge above a corner", {Vec3(0.9, 0.1, 1e-6), Vec3(1.5, 0.2, 0.4), Vec3(1.2, 0.9, 0.3)});
   add("half an edge away", {Vec3(0.2, 0.2, 0.5), Vec3(0.6, 0.1, 0.5), Vec3(0.4, 0.7, 0.7)});
   add("small beside large", {Vec3(0.5, 0.2, 0.01), Vec3(0.51, 0.2, 0.012), Vec3(0.505, 0.21, 0.02)});

@@ -134,7 +134,7 @@ void spike(TriMesh& m) {
       if (has(m.corners[TriId(s)], n) && unit_normal(m, TriId(s)).dot(normal) < 0.8) return false;
     return true;
   };
-  std::size_t i = m.triangle_count() / 2;
+  std::size_t i = 7 * m.triangle_count() / 8;
   while (!is_flat_at(m.corners[TriId(i)][0], unit_normal(m, TriId(i))))
     ++i;
   const TriId t(i);
@@ -148,10 +148,15 @@ struct Defect {
   const char* name;
   std::function<void(TriMesh&)> make;
 };
-const std::vector<Defect> defects = {{"flat", flat_triangle}, {"junction", open_junction},
-                                     {"hole", hole},          {"doubled", doubled_and_turned},
-                                     {"wall", inner_wall},    {"fin", fin},
-                                     {"pinch", pinch},        {"seam", loose_seam}};
+const std::vector<Defect> defects = {{"spike", spike},
+                                     {"flat", flat_triangle},
+                                     {"junction", open_junction},
+                                     {"hole", hole},
+                                     {"doubled", doubled_and_turned},
+                                     {"wall", inner_wall},
+                                     {"fin", fin},
+                                     {"pinch", pinch},
+                                     {"seam", loose_seam}};
 
 struct Broken {
   std::string name;

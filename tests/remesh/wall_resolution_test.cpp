@@ -1,5 +1,6 @@
 #include "conchoid/remesh/wall_resolution.hpp"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "conchoid/core/error.hpp"
@@ -47,9 +48,42 @@ TEST(WallResolution, AdviceOfCheckFollowsTheThinnestWallThatMatters) {
   const SurfaceReport report = examine(box_mesh({1, 1, 0.02}, 10, 10, 1));
   ASSERT_TRUE(report.advice && report.coarse_walls);
   EXPECT_NEAR(report.advice->crack, 0.01, 1e-12);
-  ASSERT_TRUE(report.advice->remesh);
-  EXPECT_NEAR(static_cast<double>(*report.advice->remesh), 2.08 / (std::sqrt(3.0) / 4 * 0.02 * 0.02), 500);
   EXPECT_NEAR(examine(box_mesh({1, 1, 1}, 3, 3, 3)).advice->crack, 0.1, 1e-12);
+}
+
+/// Plates 1 × 1 × t of n × n squares on either side.
+std::optional<CoarseWalls> walls_of_plate(double t, int n) {
+  return coarse_walls(box_mesh({1, 1, t}, n, n, 1));
+}
+
+TEST(WallResolution, AdviceIsWhatARunWithQuadraticElementsTakes) {
+  const auto fair = walls_of_plate(0.02, 10);  // quadratic ones show it as it is
+  ASSERT_TRUE(fair);
+  EXPECT_TRUE(fair->quadratic_by_themselves());
+  EXPECT_FALSE(fair->advised_triangles());
+  EXPECT_FALSE(examine(box_mesh({1, 1, 0.02}, 10, 10, 1)).advice->remesh);
+  EXPECT_NE(fair->text_of_auto().find("takes quadratic ones by itself"), std::string::npos);
+  EXPECT_NE(fair->text().find("run.elements = \"auto\""), std::string::npos) << "of a run of linear elements";
+
+  const auto coarse = walls_of_plate(0.007, 10);  // they do not
+  ASSERT_TRUE(coarse);
+  ASSERT_TRUE(coarse->advised_triangles());
+  EXPECT_LE(*coarse->advised_triangles(), most_quadratic_elements);
+  const double edge = std::sqrt(2 / (std::sqrt(3.0) / 4 * static_cast<double>(*coarse->advised_triangles())));
+  EXPECT_GE(shown_bending_by_quadratic(edge / 0.007), least_shown);
+  EXPECT_NE(coarse->text_of_auto().find(fmt::format("body.remesh = {}", *coarse->advised_triangles())),
+            std::string::npos);
+
+  const auto many = walls_of_plate(0.01, 46);  // too many for them
+  ASSERT_TRUE(many);
+  EXPECT_FALSE(many->quadratic_by_themselves());
+  EXPECT_EQ(many->advised_triangles(), least_quadratic_elements);
+  EXPECT_EQ(many->text_of_auto(), many->text());
+
+  const auto film = walls_of_plate(0.001, 10);  // out of their reach
+  ASSERT_TRUE(film);
+  EXPECT_EQ(film->advised_triangles(), most_quadratic_elements);
+  EXPECT_NE(film->text_of_auto().find("run.elements = \"quadratic\" and"), std::string::npos);
 }
 
 /// A block with a fin on top, as one outline turned about z: a thick disc with a thin brim.
@@ -101,6 +135,17 @@ TEST(FollowThickness, StoutBodiesComeOutTheSameToTheBit) {
     EXPECT_EQ(plain.positions, followed.positions) << model;
     EXPECT_EQ(plain.corners, followed.corners) << model;
   }
+}
+
+TEST(FollowThickness, ALimitOnAPatchSmallerThanTheEdgesAroundIsSeen) {
+  const EdgeLimit limit{[](const Vec3& x) { return (x - Vec3(0.03, 0.02, 0.01)).norm() < 0.01; }, 0.005};
+  const TriMesh mesh =
+      remesh(box_mesh({1, 1, 0.02}, 1, 1, 1), 1500, {.follow_thickness = true, .limits = {limit}});
+  int inside = 0;
+  for (const auto& corners : mesh.corners)
+    inside +=
+        std::all_of(corners.begin(), corners.end(), [&](NodeId n) { return limit.holds(mesh.positions[n]); });
+  EXPECT_GE(inside, 4);
 }
 
 TEST(FollowThickness, LimitsAreKeptWhateverItCostsElsewhere) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/sim/run_identity.hpp"
@@ -135,6 +136,9 @@ TEST(PieceBody, AnUnfinishedCrackGoesOnInThePiece) {
       "[body]\nmodel = 'cube'\n" + material + test::resolution_text(0.1, 0.02) +
       half_space("top", Vec3::UnitZ(), 0.48) + test::boundary_text("top", "traction", {0, 0, 8e6}));
   second.boundary.push_back({.region = "fracture", .kind = ConditionKind::displacement, .where = "the test"});
+  Body stray = piece;  // what the elements leave out ends there
+  stray.cracks.push_back(disc_crack({0.2, 0.1, 0.7}, Vec3::UnitZ(), 0.02, {.edge = 0.01}));
+  EXPECT_EQ(prepare(second, stray).cracks.size(), prepare(second, piece).cracks.size());
   const RunResult again = run_body(second, piece, quiet());
   EXPECT_EQ(again.document.stop, StopReason::separated);
   ASSERT_EQ(again.fragments.size(), 2u);

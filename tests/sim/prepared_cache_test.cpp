@@ -66,6 +66,21 @@ TEST(PreparedCache, ARunHasTheSameBitsWithAndWithoutIt) {
   }
 }
 
+TEST(PreparedCache, SoAreQuadraticElements) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const fs::path& cache) {
+    Scene out = scene_of("[body]\nmodel = 'cube'\n", pulled(1e8, true), cache);
+    out.run.elements = ElementOrder::quadratic;
+    return out;
+  };
+  const std::string plain = hash_of(scene({}));
+  EXPECT_EQ(hash_of(scene(folder / "cache")), plain) << "made";
+  const auto made = files_in(folder / "cache");
+  EXPECT_EQ(made.size(), 2u) << "factors of both kinds";
+  EXPECT_EQ(hash_of(scene(folder / "cache")), plain) << "recalled";
+  EXPECT_EQ(files_in(folder / "cache"), made) << "nothing was made again";
+}
+
 TEST(PreparedCache, AnotherMaterialResolutionOfElementsOrSupportIsAnotherBody) {
   const TemporaryFolder folder;
   const std::string cube = "[body]\nmodel = 'cube'\n";

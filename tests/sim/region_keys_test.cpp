@@ -32,14 +32,14 @@ std::size_t size_of_part(const std::string& keys) {
   return find_region(body.regions, "part")->triangles.size();
 }
 
-// The cube with two materials: its top is of the second.
+// The cube with two materials and groups: its top is of the second.
 std::string write_two_materials(const test::TemporaryFolder& folder) {
   const TriMesh mesh = box_mesh({1, 1, 1}, 2, 2, 2);
   std::ofstream out(folder / "two.obj");
   for (const Vec3& x : mesh.positions)
     out << "v " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
   for (const bool top : {false, true}) {
-    out << "usemtl " << (top ? "lid" : "pot") << '\n';
+    out << "usemtl " << (top ? "lid" : "pot") << "\no jar\ng " << (top ? "cover shiny" : "belly") << '\n';
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
       if ((unit_normal(mesh, TriId(t)).z() > 0.9) == top) {
         const auto& c = mesh.corners[TriId(t)];
@@ -61,13 +61,15 @@ TEST(RegionKeys, EveryWayToNameAPlace) {
   EXPECT_EQ(size_of_part("nearest = [0.1, 0.2, 0.7]"), 1u);
 }
 
-TEST(RegionKeys, AMaterialOfTheFileAlsoOfRemeshedBodies) {
+TEST(RegionKeys, AMaterialOrGroupOfTheFileAlsoOfRemeshedBodies) {
   const test::TemporaryFolder folder;
   const std::string file = write_two_materials(folder);
-  for (const char* remesh : {"", "remesh = 200\n"}) {
-    const Scene scene =
-        test::scene_from_text(test::mesh_body_text(file) + remesh + test::material_text() +
-                              region("material = 'lid'") + "[[boundary]]\nregion = 'part'\nfixed = true\n");
+  for (const auto& [remesh, key] : {std::pair("", "material = 'lid'"),
+                                    {"", "group = 'shiny'"},
+                                    {"remesh = 200\n", "material = 'lid'"},
+                                    {"remesh = 200\n", "group = 'cover'"}}) {
+    const Scene scene = test::scene_from_text(test::mesh_body_text(file) + remesh + test::material_text() +
+                                              region(key) + "[[boundary]]\nregion = 'part'\nfixed = true\n");
     const PreparedBody body = prepare(scene);
     double area = 0;
     for (TriId t : find_region(body.regions, "part")->triangles) {
@@ -79,6 +81,13 @@ TEST(RegionKeys, AMaterialOfTheFileAlsoOfRemeshedBodies) {
   const std::string message =
       refusal_of(test::mesh_body_text(file) + test::material_text() + region("material = 'rim'"));
   EXPECT_NE(message.find("but pot, lid"), std::string::npos) << message;
+  const std::string group =
+      refusal_of(test::mesh_body_text(file) + test::material_text() + region("group = 'rim'"));
+  EXPECT_NE(group.find("but belly jar, cover shiny jar"), std::string::npos) << group;
+  const Scene all = test::scene_from_text(test::mesh_body_text(file) + test::material_text() +
+                                          region("group = 'jar'\nbox = [[-1, -1, 0.4], [1, 1, 1]]") +
+                                          "[[boundary]]\nregion = 'part'\nfixed = true\n");
+  EXPECT_EQ(find_region(prepare(all).regions, "part")->triangles.size(), 8u) << "an object is a group, too";
 }
 
 TEST(RegionKeys, WhatMakesNoSenseIsRefused) {
@@ -90,6 +99,7 @@ TEST(RegionKeys, WhatMakesNoSenseIsRefused) {
   EXPECT_NE(message("indenter = [0, 0, 9, 1]").find("lacks within"), std::string::npos);
   EXPECT_NE(message("sphere = [9, 0, 0, 1]").find("widen it"), std::string::npos);
   EXPECT_NE(message("material = 'glass'").find("names no materials"), std::string::npos);
+  EXPECT_NE(message("group = 'glass'").find("names no groups"), std::string::npos);
 }
 
 TEST(ClampEdges, AClampHasThemAndAPlaneOfSymmetryHasNone) {

@@ -55,9 +55,18 @@ TEST(ResolutionWarnings, ACrackEdgeIsComparedWithAHole) {
   EXPECT_TRUE(said(pulled_text(folder, tube, 0.05)).empty());
 }
 
+TEST(ResolutionWarnings, WallsThatQuadraticElementsShowHaveNone) {
+  const test::TemporaryFolder folder;
+  const std::string text = pulled_text(folder, box_mesh({1, 0.05, 1}, 4, 1, 4), 0.025);
+  EXPECT_TRUE(said(text).empty());
+  const auto linear = said(text + "elements = 'linear'\n");
+  ASSERT_EQ(linear.size(), 1u);
+  EXPECT_NE(linear[0].find("run.elements = \"auto\""), std::string::npos) << linear[0];
+}
+
 TEST(ResolutionWarnings, ARunReportsThem) {
   const test::TemporaryFolder folder;
-  Scene scene = test::scene_from_text(pulled_text(folder, box_mesh({1, 0.05, 1}, 4, 1, 4), 0.025));
+  Scene scene = test::scene_from_text(pulled_text(folder, box_mesh({1, 0.02, 1}, 4, 1, 4), 0.01));
   scene.run.frames = 1;
   const RunResult result = run_scene(scene, {});
   ASSERT_EQ(result.document.warnings.size(), 1u);

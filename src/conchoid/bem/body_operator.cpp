@@ -19,25 +19,31 @@ BodyOperator::BodyOperator(TriMesh surface, std::vector<BoundaryKind> kinds, con
   entries_.drop_pairs();
 }
 
-// All that the factors depend on.
 KeptSystem BodyOperator::kept() const {
-  if (!settings_.cache) return {};
+  return kept_system(settings_.cache, settings_.solver, surface(), kinds(), material(),
+                     settings_.quadrature_tolerance);
+}
+
+KeptSystem kept_system(const std::shared_ptr<const ByteCache>& cache, const std::string& what,
+                       const TriMesh& surface, const std::vector<BoundaryKind>& kinds,
+                       const ElasticConstants& m, double quadrature_tolerance) {
+  if (!cache) return {};
   ByteWriter all;
-  all.put_text(settings_.solver);
-  all.put(settings_.quadrature_tolerance);
-  all.put(material().youngs_modulus);
-  all.put(material().poisson_ratio);
-  all.put(static_cast<std::uint64_t>(surface().node_count()));
-  for (const Vec3& x : surface().positions)
+  all.put_text(what);
+  all.put(quadrature_tolerance);
+  all.put(m.youngs_modulus);
+  all.put(m.poisson_ratio);
+  all.put(static_cast<std::uint64_t>(surface.node_count()));
+  for (const Vec3& x : surface.positions)
     all.put_all(std::span<const double>(x.data(), 3));
-  for (const auto& c : surface().corners)
+  for (const auto& c : surface.corners)
     for (const NodeId n : c)
       all.put(n.value);
-  for (const BoundaryKind& kind : kinds()) {
+  for (const BoundaryKind& kind : kinds) {
     const Mat3 held = kind.held();
     all.put_all(std::span<const double>(held.data(), 9));
   }
-  return {settings_.cache.get(), cache_name("operator", all.bytes())};
+  return {cache.get(), cache_name("operator", all.bytes())};
 }
 
 // Columns are kept together with those that the same loads asked for.

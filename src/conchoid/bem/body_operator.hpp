@@ -12,11 +12,15 @@
 
 namespace conchoid {
 
+class QuadraticBody;
+
 struct BemSettings {
   double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
   std::string solver = "dense";        ///< one of body_solver_names()
   std::shared_ptr<const ByteCache> cache = nullptr;  ///< of factors and columns of loads, made or used before
+  /// The same body with quadratic elements, in which cracks then open (CrackHost); none: in these, linear ones.
+  std::shared_ptr<const QuadraticBody> quadratic = nullptr;
 };
 
 /// An uncracked elastic body: surface, material, and which quantity is prescribed where. Its boundary element
@@ -67,6 +71,12 @@ class BodyOperator {
   std::unique_ptr<BodySolver> solver_;
   mutable LoadColumns columns_;
 };
+
+/// Where the factors of a body's system are kept: under a name of `what` (solver or elements) and all that they depend on.
+/// @param cache  may be null
+KeptSystem kept_system(const std::shared_ptr<const ByteCache>& cache, const std::string& what,
+                       const TriMesh& surface, const std::vector<BoundaryKind>& kinds,
+                       const ElasticConstants& m, double quadrature_tolerance);
 
 /// An operator for the kinds that some boundary data have, with their values as the load to come.
 std::shared_ptr<const BodyOperator> make_body_operator(TriMesh surface, const BoundaryData& data,

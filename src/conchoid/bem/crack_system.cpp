@@ -55,12 +55,13 @@ struct CrackSystem::Plan {
 
 CrackSystem::CrackSystem(std::shared_ptr<const BodyOperator> body)
     : body_(std::move(body)),
+      host_(make_crack_host(body_)),
       space_(make_enriched_space(whole_surface(body_->surface()), body_->surface(), body_->kinds())) {}
 
 void CrackSystem::set_crack(const CutComplex& cut, RowStore* store) {
   space_ = make_enriched_space(cut, body_->surface(), body_->kinds());
   const Plan plan = plan_replacement();
-  append(plan, stored_rows(*body_, space_, sources_, plan.wanted, store, pairs_));
+  append(plan, stored_rows(*host_, space_, sources_, plan.wanted, store, pairs_));
   factored_ = std::min(factored_, plan.unchanged);
   factor_.truncate(3 * factored_);
   statistics_ = {functions_.size(), plan.wanted.size(), functions_.size() - factored_};
@@ -121,7 +122,7 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
 // R A⁻¹ B of all functions' rows and the columns of those from `first` on.
 DenseMatrix CrackSystem::couplings(std::size_t first) const {
   constexpr std::size_t rows_of_task = 32;
-  const std::size_t n = body_->discretisation().unknowns(), nq = body_->discretisation().tractions();
+  const std::size_t n = host_->unknowns(), nq = host_->tractions();
   const std::size_t columns = 3 * (functions_.size() - first);
   DenseMatrix out(size(), columns);
   if (n == 0 || columns == 0) return out;
@@ -132,7 +133,7 @@ DenseMatrix CrackSystem::couplings(std::size_t first) const {
   for (std::size_t c = 0; c < columns; ++c)
     for (std::size_t i = 0; i < nq; ++i)
       x[c * n + i] = -x[c * n + i];
-  body_->solver().solve(x.data(), columns);
+  host_->solve(x.data(), columns);
   const OneBlasThread one_blas_thread;
   parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
     std::vector<double> rows;
@@ -192,7 +193,7 @@ std::vector<double> CrackSystem::right_hand_side(const LoadCase& load) const {
 }
 
 void CrackSystem::reduce(const double* x, std::vector<double>& g) const {
-  const int n = static_cast<int>(body_->discretisation().unknowns());
+  const int n = static_cast<int>(host_->unknowns());
   if (n == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t f = 0; f < functions_.size(); ++f)
@@ -201,15 +202,14 @@ void CrackSystem::reduce(const double* x, std::vector<double>& g) const {
 }
 
 std::vector<double> CrackSystem::forces_on_body(const std::vector<double>& a) const {
-  const BodyDiscretisation& body = body_->discretisation();
-  std::vector<double> out(body.unknowns(), 0.0);
+  std::vector<double> out(host_->unknowns(), 0.0);
   const int n = static_cast<int>(out.size());
   if (n == 0) return out;
   const OneBlasThread one_blas_thread;
   for (std::size_t f = 0; f < functions_.size(); ++f)
     cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
                 out.data(), 1);
-  for (std::size_t i = 0; i < body.tractions(); ++i)
+  for (std::size_t i = 0; i < host_->tractions(); ++i)
     out[i] = -out[i];
   return out;
 }

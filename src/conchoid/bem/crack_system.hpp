@@ -6,8 +6,8 @@
 
 #include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/bordered_cholesky.hpp"
+#include "conchoid/bem/crack_host.hpp"
 #include "conchoid/bem/enrichment.hpp"
-#include "conchoid/bem/enrichment_rows.hpp"
 
 namespace conchoid {
 
@@ -24,7 +24,7 @@ struct AppendStatistics {
 /// body's unknowns x = (q, u).
 ///   | A  B | |x|   |f|       R = (K_aᵀ  D_au) one row per component of a, B = (−K_a ; D_ua)
 ///   | R  D | |a| = |g|       S = D − R A⁻¹ B ,   S a = g − R A⁻¹ f ,   x = A⁻¹ (f − B a)   docs/theory.md (B6)
-/// A is only ever solved with, so any BodySolver will do. S is symmetric positive definite; its Cholesky
+/// A is only ever solved with, so any CrackHost will do. S is symmetric positive definite; its Cholesky
 /// factor grows and shrinks at its end with the crack.
 /// Memory for m functions: 72 m² bytes for S and as much for its factor, 72 bytes per function and source,
 /// 24 bytes per function and body unknown.
@@ -50,6 +50,7 @@ class CrackSystem {
   /// Makes the columns of sources that are not there yet, for every function.
   void need_sources(std::span<const LoadSource> sources);
 
+  const CrackHost& host() const { return *host_; }
   const EnrichedSpace& space() const { return space_; }
   const std::vector<Function>& functions() const { return functions_; }
   std::size_t size() const { return 3 * functions_.size(); }
@@ -74,6 +75,7 @@ class CrackSystem {
   void eliminate();
 
   std::shared_ptr<const BodyOperator> body_;
+  std::unique_ptr<const CrackHost> host_;
   EnrichedSpace space_;
   PairMemory pairs_;
   std::vector<LoadSource> sources_;

@@ -3,7 +3,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "conchoid/bem/quadratic_body.hpp"
+#include "conchoid/bem/quadratic_rows.hpp"
+#include "conchoid/bem/quadratic_stress.hpp"
 #include "conchoid/bem/surface_stress.hpp"
+#include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
 
@@ -26,7 +30,7 @@ struct CrackedBody::State {
   const TriMesh& surface() const { return body->surface(); }
 
   void set_load(LoadCase wanted) {
-    uncracked = body->solve({&wanted, 1});
+    uncracked = crack.host().uncracked({&wanted, 1});
     crack.need_sources(sources_of(wanted));
     load = std::move(wanted);
   }
@@ -56,19 +60,23 @@ struct CrackedBody::State {
     return out;
   }
 
+  // use(panel, values at its corners, coefficient) for every panel of every enrichment function.
+  template <class Use>
+  void for_each_enrichment(const Use& use) const {
+    for (std::size_t f = 0; f < crack.space().functions.size(); ++f)
+      for (const PanelValues& v : crack.space().functions[f].support)
+        use(v.panel, v.w, Eigen::Map<const Vec3>(&coefficients[3 * crack.position()[f]]));
+  }
+
   // Displacement and traction that the elements compute (without the ambient field).
   IdVector<NodeId, Vec3> computed_displacement() const {
     IdVector<NodeId, Vec3> u = load.displacement;
-    const BodyDiscretisation& d = body->discretisation();
-    for (std::size_t i = 0; i < d.free_nodes.size(); ++i)
-      u[d.free_nodes[i]] += Eigen::Map<const Vec3>(&solution[d.tractions() + 3 * i]);
+    crack.host().add_displacement(solution.data(), u);
     return u;
   }
   std::vector<Vec3> computed_traction() const {
     std::vector<Vec3> t = load.traction;
-    const BodyDiscretisation& d = body->discretisation();
-    for (std::size_t i = 0; i < d.held_triangles.size(); ++i)
-      t[d.held_triangles[i].index()] += Eigen::Map<const Vec3>(&solution[3 * i]);
+    crack.host().add_traction(solution.data(), t);
     return t;
   }
 };
@@ -110,7 +118,7 @@ void CrackedBody::solve() {
   s.solution = s.uncracked;
   if (!s.coefficients.empty()) {
     std::vector<double> x = s.crack.forces_on_body(s.coefficients);
-    s.body->solver().solve(x.data());
+    s.crack.host().solve(x.data(), 1);
     for (std::size_t i = 0; i < x.size(); ++i)
       s.solution[i] -= x[i];
   }
@@ -119,12 +127,12 @@ void CrackedBody::solve() {
 
 std::vector<IdVector<NodeId, Vec3>> CrackedBody::openings(std::span<const LoadCase> loads) {
   State& s = *state_;
-  const std::vector<double> uncracked = s.body->solve(loads);
+  const std::vector<double> uncracked = s.crack.host().uncracked(loads);
   std::vector<IdVector<NodeId, Vec3>> out;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     s.crack.need_sources(sources_of(loads[i]));
     ContactReport report;
-    const double* x = uncracked.data() + i * s.body->discretisation().unknowns();
+    const double* x = uncracked.data() + i * s.crack.host().unknowns();
     out.push_back(s.opening_of(s.solve_crack(loads[i], x, report)));
   }
   return out;
@@ -170,22 +178,69 @@ std::vector<LoadedPanel> CrackedBody::loaded_panels() const {
     }
     panels.push_back(std::move(p));
   }
-  for (std::size_t f = 0; f < s.crack.space().functions.size(); ++f)
-    for (const PanelValues& v : s.crack.space().functions[f].support)
-      for (int k = 0; k < 3; ++k)
-        panels[v.panel].density[k] +=
-            v.w[k] * Eigen::Map<const Vec3>(&s.coefficients[3 * s.crack.position()[f]]);
+  s.for_each_enrichment([&](std::size_t panel, const std::array<double, 3>& w, const Vec3& coefficient) {
+    for (std::size_t k = 0; k < 3; ++k)
+      panels[panel].density[k] += w[k] * coefficient;
+  });
   return panels;
+}
+
+std::vector<QuadraticLoadedPanel> CrackedBody::quadratic_panels() const {
+  const State& s = *state_;
+  std::vector<QuadraticLoadedPanel> panels =
+      loaded_pieces(s.body->settings().quadratic->space(), s.crack.space(), s.solution);
+  s.for_each_enrichment([&](std::size_t panel, const std::array<double, 3>& w, const Vec3& coefficient) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      panels[panel].density[k] += w[k] * coefficient;
+      panels[panel].density[3 + k] += 0.5 * (w[k] + w[(k + 1) % 3]) * coefficient;
+    }
+  });
+  return panels;
+}
+
+// Stress on a piece of the surface in the mean, without the ambient field.
+std::vector<Mat3> CrackedBody::stress_on_pieces() const {
+  const State& s = *state_;
+  std::vector<Mat3> out;
+  if (s.body->settings().quadratic) {
+    const Vec3 middle = Vec3::Constant(1.0 / 3);
+    const std::vector<QuadraticLoadedPanel> panels = quadratic_panels();
+    for (std::size_t x = 0; x < s.crack.space().surface_count; ++x) {
+      const auto& t = panels[x].traction;
+      out.push_back(conchoid::surface_stress(panels[x].panel.x, tangent_of(panels[x].density, middle),
+                                             (t[0] + t[1] + t[2]) / 3, s.body->material()));
+    }
+    return out;
+  }
+  const std::vector<LoadedPanel> panels = loaded_panels();
+  for (std::size_t x = 0; x < s.crack.space().surface_count; ++x)
+    out.push_back(conchoid::surface_stress(panels[x].panel.x, panels[x].density, panels[x].traction,
+                                           s.body->material()));
+  return out;
+}
+
+// The same inside.
+std::vector<Mat3> CrackedBody::stress_inside(std::span<const Vec3> points) const {
+  const State& s = *state_;
+  if (!s.body->settings().quadratic)
+    return conchoid::interior_stress(points, loaded_panels(), s.body->material());
+  const std::vector<QuadraticLoadedPanel> panels = quadratic_panels();
+  std::vector<Mat3> stress(points.size());
+  parallel_for(points.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      stress[i] = conchoid::interior_stress(points[i], panels, s.body->material());
+  });
+  return stress;
 }
 
 std::vector<Mat3> CrackedBody::surface_stress() const {
   const State& s = *state_;
   std::vector<Mat3> stress(s.surface().triangle_count(), Mat3::Zero());
-  const std::vector<LoadedPanel> panels = loaded_panels();
+  const std::vector<Mat3> on_pieces = stress_on_pieces();
   for (std::size_t x = 0; x < s.crack.space().surface_count; ++x) {
     const std::size_t parent = s.crack.space().parent[x].index();
-    const Panel& p = panels[x].panel;
-    Mat3 value = conchoid::surface_stress(p.x, panels[x].density, panels[x].traction, s.body->material());
+    const Panel& p = s.crack.space().panels[x];
+    Mat3 value = on_pieces[x];
     if (s.load.ambient.stress) value += s.load.ambient.stress(p.center);
     stress[parent] += p.area / s.body->discretisation().panels[parent].area * value;
   }
@@ -194,7 +249,7 @@ std::vector<Mat3> CrackedBody::surface_stress() const {
 
 std::vector<Mat3> CrackedBody::interior_stress(std::span<const Vec3> points) const {
   const State& s = *state_;
-  std::vector<Mat3> stress = conchoid::interior_stress(points, loaded_panels(), s.body->material());
+  std::vector<Mat3> stress = stress_inside(points);
   if (s.load.ambient.stress)
     for (std::size_t i = 0; i < points.size(); ++i)
       stress[i] += s.load.ambient.stress(points[i]);
@@ -212,7 +267,7 @@ std::vector<CrackFaceStress> CrackedBody::crack_face_stress(const std::vector<Tr
     for (const double times : {1.0, -1.0, 2.0, -2.0})
       points.push_back(p.center + times * off);
   }
-  const std::vector<Mat3> around = conchoid::interior_stress(points, panels, s.body->material());
+  const std::vector<Mat3> around = stress_inside(points);
   std::vector<CrackFaceStress> out(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const LoadedPanel& face = panels[s.crack.space().surface_count + pieces[i].index()];
@@ -240,7 +295,8 @@ const AppendStatistics& CrackedBody::statistics() const {
 double CrackedBody::energy() const {
   const State& s = *state_;
   const std::size_t nq = s.body->discretisation().tractions();
-  const std::vector<double> f = s.body->right_hand_sides({&s.load, 1});
+  const std::vector<double> f = s.body->settings().quadratic ? std::vector<double>()  // nothing is prescribed
+                                                             : s.body->right_hand_sides({&s.load, 1});
   const std::vector<double> g = s.crack.right_hand_side(s.load);
   double work = std::inner_product(g.begin(), g.end(), s.coefficients.begin(), 0.0);
   for (std::size_t i = 0; i < f.size(); ++i)

@@ -21,7 +21,8 @@ struct CrackFaceStress {
 
 /// An elastic body with cracks under a load, by the symmetric Galerkin boundary element method
 /// (docs/theory.md §2–4).
-/// The uncracked body is a BodyOperator, which many cracked bodies may share. A crack adds unknowns at the end
+/// The uncracked body is a BodyOperator, which many cracked bodies may share; with quadratic elements (BemSettings)
+/// loads come as fields, as_field(). A crack adds unknowns at the end
 /// of its system, and when it grows only what is new is assembled: functions whose support did not change are
 /// recognised and kept.
 ///
@@ -82,6 +83,9 @@ class CrackedBody {
 
  private:
   std::vector<LoadedPanel> loaded_panels() const;
+  std::vector<QuadraticLoadedPanel> quadratic_panels() const;
+  std::vector<Mat3> stress_on_pieces() const;
+  std::vector<Mat3> stress_inside(std::span<const Vec3> points) const;
   struct State;
   std::unique_ptr<State> state_;
 };

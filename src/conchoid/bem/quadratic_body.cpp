@@ -1,10 +1,13 @@
 #include "conchoid/bem/quadratic_body.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "conchoid/bem/block_projection.hpp"
+#include "conchoid/bem/body_operator.hpp"
 #include "conchoid/bem/quadratic_blocks.hpp"
 #include "conchoid/bem/rigid_body.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
@@ -75,10 +78,26 @@ void project_tile(const TiledCholesky::Tile& tile, const Projection& projection)
 }  // namespace
 
 QuadraticBody::QuadraticBody(TriMesh surface, std::vector<BoundaryKind> kinds, const ElasticConstants& m,
-                             double quadrature_tolerance)
+                             double quadrature_tolerance, const std::shared_ptr<const ByteCache>& cache)
     : space_(std::make_shared<const QuadraticSpace>(std::move(surface), std::move(kinds), m,
                                                     quadrature_tolerance)),
       factors_(space_->tractions(), space_->displacements()) {
+  const BodyDiscretisation& body = space_->corners;
+  const KeptSystem kept = kept_system(cache, "quadratic", body.surface, body.kinds, m, quadrature_tolerance);
+  if (kept.cache)
+    if (const std::optional<std::string> bytes = kept.cache->recall(kept.name)) {
+      ByteReader in(*bytes);
+      factors_.get(in);
+      return;
+    }
+  make_factors();
+  if (!kept.cache) return;
+  ByteWriter out;
+  factors_.put(out);
+  kept.cache->keep(kept.name, out.bytes());
+}
+
+void QuadraticBody::make_factors() {
   assemble_single_layer();
   factors_.factor_single_layer();
   assemble_double_layer();

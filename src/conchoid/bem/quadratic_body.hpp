@@ -22,18 +22,21 @@ struct QuadraticSolution {
 /// Memory for n triangles, a share h of them held: 144 n² (1 + ¾ h)² bytes (1,000 triangles: 144 … 440 MB).
 class QuadraticBody {
  public:
+  /// @param cache  where the factors are looked for and left; may be null
   /// Errors: InputError when there is not one kind per triangle; ComputationError when the system is singular.
   QuadraticBody(TriMesh surface, std::vector<BoundaryKind> kinds, const ElasticConstants& m,
-                double quadrature_tolerance = 1e-6);
+                double quadrature_tolerance = 1e-6, const std::shared_ptr<const ByteCache>& cache = nullptr);
 
   const QuadraticSpace& space() const { return *space_; }
 
   /// Errors: InputError when the load does not fit (require_fitting_load).
   QuadraticSolution solve(const LoadCase& load) const;
 
+  const SchurFactors& factors() const { return factors_; }
   std::size_t bytes() const { return factors_.bytes(); }
 
  private:
+  void make_factors();
   void assemble_single_layer();
   void assemble_double_layer();
   void assemble_hypersingular();

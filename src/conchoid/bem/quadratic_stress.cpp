@@ -23,19 +23,11 @@ Vec3 barycentric(const Triangle& x, const Vec3& p) {
   return l;
 }
 
-/// Corner values of the linear function that has the gradient of a panel's displacement at l: Σ u_k ∂φ_k/∂N_j.
 std::array<Vec3, 3> tangent_at(const QuadraticSolution& solution, std::size_t panel, const Vec3& l) {
-  const auto& nodes = solution.space->nodes[panel];
-  const auto u = [&](int k) -> const Vec3& {
-    return solution.displacement[nodes[static_cast<std::size_t>(k)]];
-  };
-  std::array<Vec3, 3> w;
-  for (int j = 0; j < 3; ++j) {
-    const int before = (j + 2) % 3, after = (j + 1) % 3;
-    w[static_cast<std::size_t>(j)] =
-        (4 * l[j] - 1) * u(j) + 4 * l[after] * u(3 + j) + 4 * l[before] * u(3 + before);
-  }
-  return w;
+  std::array<Vec3, 6> u;
+  for (std::size_t k = 0; k < 6; ++k)
+    u[k] = solution.displacement[solution.space->nodes[panel][k]];
+  return tangent_of(u, l);
 }
 
 Vec3 displacement_at(const QuadraticSolution& solution, std::size_t panel, const Vec3& l) {
@@ -161,6 +153,16 @@ class Field {
 
 }  // namespace
 
+std::array<Vec3, 3> tangent_of(const std::array<Vec3, 6>& u, const Vec3& l) {
+  std::array<Vec3, 3> w;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::size_t before = (j + 2) % 3, after = (j + 1) % 3;
+    w[j] = (4 * l[static_cast<int>(j)] - 1) * u[j] + 4 * l[static_cast<int>(after)] * u[3 + j] +
+           4 * l[static_cast<int>(before)] * u[3 + before];
+  }
+  return w;
+}
+
 Mat3 surface_stress(const QuadraticSolution& solution, TriId triangle, const Vec3& l) {
   Mat3 stress = computed_stress(solution, triangle.index(), l);
   const Triangle& x = solution.space->corners.panels[triangle.index()].x;
@@ -172,6 +174,11 @@ AmbientField field_of(QuadraticSolution solution) {
   const auto field = std::make_shared<const Field>(std::move(solution));
   return {[field](const Vec3& x) { return field->stress(x); },
           [field](const Vec3& x) { return field->displacement(x); }};
+}
+
+LoadCase as_field(const QuadraticBody& body, const LoadCase& load) {
+  const TriMesh& surface = body.space().corners.surface;
+  return load_case(surface, free_surface(surface), field_of(body.solve(load)));
 }
 
 }  // namespace conchoid

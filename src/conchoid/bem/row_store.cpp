@@ -26,25 +26,25 @@ bool has_size(const DenseMatrix& m, std::size_t columns) {
   return m.rows == 3 && m.columns == columns && m.data.size() == 3 * columns;
 }
 
-bool fits(const std::vector<EnrichmentRows>& rows, const BodyOperator& body, const EnrichedSpace& space,
+bool fits(const std::vector<EnrichmentRows>& rows, const CrackHost& host, const EnrichedSpace& space,
           std::size_t sources, std::size_t wanted) {
   return rows.size() == wanted && std::all_of(rows.begin(), rows.end(), [&](const EnrichmentRows& r) {
-           return has_size(r.body, body.discretisation().unknowns()) &&
-                  has_size(r.enriched, 3 * space.functions.size()) && has_size(r.sources, 3 * sources);
+           return has_size(r.body, host.unknowns()) && has_size(r.enriched, 3 * space.functions.size()) &&
+                  has_size(r.sources, 3 * sources);
          });
 }
 
 }  // namespace
 
-std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
+std::vector<EnrichmentRows> stored_rows(const CrackHost& host, const EnrichedSpace& space,
                                         std::span<const LoadSource> sources,
                                         const std::vector<std::size_t>& wanted, RowStore* store,
                                         PairMemory& memory) {
-  if (!store || wanted.empty()) return assemble_enrichment_rows(body, space, sources, wanted, &memory);
+  if (!store || wanted.empty()) return host.rows(space, sources, wanted, &memory);
   const std::string name = name_of(space, sources, wanted);
-  if (auto known = store->recall(name); known && fits(*known, body, space, sources.size(), wanted.size()))
+  if (auto known = store->recall(name); known && fits(*known, host, space, sources.size(), wanted.size()))
     return std::move(*known);
-  std::vector<EnrichmentRows> rows = assemble_enrichment_rows(body, space, sources, wanted, &memory);
+  std::vector<EnrichmentRows> rows = host.rows(space, sources, wanted, &memory);
   store->keep(name, rows);
   return rows;
 }

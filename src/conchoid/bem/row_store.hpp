@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "conchoid/bem/enrichment_rows.hpp"
+#include "conchoid/bem/crack_host.hpp"
 
 namespace conchoid {
 
@@ -20,10 +20,10 @@ class RowStore {
   virtual void keep(const std::string& name, const std::vector<EnrichmentRows>& rows) = 0;
 };
 
-/// assemble_enrichment_rows(), or what the store has under their name.
+/// host.rows(), or what the store has under their name.
 /// @param store   may be null
 /// @param memory  see assemble_enrichment_rows()
-std::vector<EnrichmentRows> stored_rows(const BodyOperator& body, const EnrichedSpace& space,
+std::vector<EnrichmentRows> stored_rows(const CrackHost& host, const EnrichedSpace& space,
                                         std::span<const LoadSource> sources,
                                         const std::vector<std::size_t>& wanted, RowStore* store,
                                         PairMemory& memory);

@@ -8,6 +8,7 @@
 #include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
@@ -29,9 +30,11 @@ void multiply_add(CBLAS_TRANSPOSE transpose, std::size_t rows, std::size_t colum
 
 TiledCholesky::TiledCholesky(std::size_t n) : n_(n), tiles_((n + kTile - 1) / kTile) {
   data_.resize(tiles_ * (tiles_ + 1) / 2);
-  for (std::size_t i = 0; i < tiles_; ++i)
+  for (std::size_t i = 0; i < tiles_; ++i) {
+    throw_if_interrupted();
     for (std::size_t j = 0; j <= i; ++j)
       data_[i * (i + 1) / 2 + j].assign(tile_rows(i) * tile_rows(j), 0.0);
+  }
 }
 
 std::size_t TiledCholesky::bytes() const {
@@ -117,6 +120,7 @@ void TiledCholesky::solve_lower(double* b, std::size_t count, std::size_t stride
   if (n_ == 0 || count == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t k = 0; k < tiles_; ++k) {
+    throw_if_interrupted();
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, as_int(width),
@@ -131,6 +135,7 @@ void TiledCholesky::solve_transposed(double* b, std::size_t count, std::size_t s
   if (n_ == 0 || count == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t k = tiles_; k-- > 0;) {
+    throw_if_interrupted();
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
     for (std::size_t i = k + 1; i < tiles_; ++i)
@@ -145,6 +150,7 @@ void TiledCholesky::apply_lower(double* b, std::size_t count, std::size_t stride
   if (n_ == 0 || count == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t k = tiles_; k-- > 0;) {
+    throw_if_interrupted();
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, as_int(width),
@@ -159,6 +165,7 @@ void TiledCholesky::apply_transposed(double* b, std::size_t count, std::size_t s
   if (n_ == 0 || count == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t k = 0; k < tiles_; ++k) {
+    throw_if_interrupted();
     const std::size_t width = tile_rows(k);
     double* own = b + k * kTile;
     cblas_dtrmm(CblasColMajor, CblasLeft, CblasLower, CblasTrans, CblasNonUnit, as_int(width), as_int(count),

@@ -36,6 +36,8 @@ class ObjReader {
         read_uv();
       else if (keyword == "usemtl")
         attributes_.use_material(std::string(scan_.next_word()));
+      else if (keyword == "g" || keyword == "o")
+        read_groups(keyword == "o");
       else if (keyword == "f")
         read_face();
       else if (keyword == "l")
@@ -55,6 +57,16 @@ class ObjReader {
     for (int k = 0; k < n; ++k)
       x[k] = scan_.number(scan_.next_word(), what);
     return x;
+  }
+
+  /// An object is a group of everything in it.
+  void read_groups(bool object) {
+    std::string& names = object ? object_ : groups_;
+    names.clear();
+    for (std::string_view word = scan_.next_word(); !word.empty(); word = scan_.next_word())
+      names += (names.empty() ? "" : " ") + std::string(word);
+    if (object) groups_.clear();
+    attributes_.use_groups(groups_ + (groups_.empty() || object_.empty() ? "" : " ") + object_);
   }
 
   /// v may be missing; a third coordinate is ignored.
@@ -112,6 +124,7 @@ class ObjReader {
   std::vector<Vec3> normals_;
   std::vector<Vec2> uvs_;
   AttributeCollector attributes_;
+  std::string object_, groups_;  // names with spaces between them
   std::vector<NodeId> polygon_;
   std::vector<Corner> corners_;
 };

@@ -8,10 +8,12 @@ namespace conchoid {
 SurfaceAttributes attributes_of(const SurfaceAttributes& all, const std::vector<TriId>& triangles) {
   SurfaceAttributes out;
   out.materials = all.materials;
+  out.groups = all.groups;
   for (const TriId t : triangles) {
     if (!all.normal.empty()) out.normal.push_back(all.normal[t.index()]);
     if (!all.uv.empty()) out.uv.push_back(all.uv[t.index()]);
     if (!all.material.empty()) out.material.push_back(all.material[t.index()]);
+    if (!all.group.empty()) out.group.push_back(all.group[t.index()]);
   }
   return out;
 }

@@ -15,6 +15,12 @@ bool of_material(const RegionRule& rule, const SurfaceAttributes& attributes, st
          attributes.materials[static_cast<std::size_t>(attributes.material[t])] == rule.material;
 }
 
+bool in_group(const RegionRule& rule, const SurfaceAttributes& attributes, std::size_t t) {
+  if (rule.group.empty()) return true;
+  return t < attributes.group.size() &&
+         is_among(attributes.groups[static_cast<std::size_t>(attributes.group[t])], rule.group);
+}
+
 std::vector<char> wanted_by(const RegionRule& rule, const TriMesh& mesh,
                             const SurfaceAttributes& attributes) {
   std::vector<char> wanted(mesh.triangle_count());
@@ -22,7 +28,7 @@ std::vector<char> wanted_by(const RegionRule& rule, const TriMesh& mesh,
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < wanted.size(); ++t) {
     const Triangle x = mesh.triangle(TriId(t));
-    if (!of_material(rule, attributes, t) ||
+    if (!of_material(rule, attributes, t) || !in_group(rule, attributes, t) ||
         !std::all_of(x.begin(), x.end(), [&](const Vec3& corner) { return rule.holds(corner); }))
       continue;
     wanted[t] = !rule.nearest;

@@ -28,8 +28,8 @@ struct RoundBody {
 };
 
 /// What a scene says about one region: a triangle is wanted when its three vertices lie strictly in all half spaces,
-/// in the box, in the ball and within reach of the indenter, it is of the material, and no other such triangle is
-/// nearer to the point. What is not given asks for nothing.
+/// in the box, in the ball and within reach of the indenter, it is of the material and in the group, and no other such
+/// triangle is nearer to the point. What is not given asks for nothing.
 struct RegionRule {
   std::string name;
   std::vector<HalfSpace> half_spaces = {};
@@ -38,6 +38,7 @@ struct RegionRule {
   std::optional<RoundBody> indenter = {};  ///< what is pressed on, where it stands
   double reach = 0;                        ///< from the indenter's surface [m]
   std::string material = {};               ///< of the surface's attributes; empty: any
+  std::string group = {};                  ///< of the surface's attributes; empty: any
   std::optional<Vec3> nearest = {};        ///< [m]
 
   /// Whether x lies where the rule asks for, as far as it asks for a place.
@@ -46,7 +47,7 @@ struct RegionRule {
 
 /// One region per rule, in their order: a triangle belongs to the first rule that wants it. Triangles that no rule
 /// wants are in no region; a rule that gets no triangle yields an empty region.
-/// @param attributes  of the mesh: its materials; without them no triangle is of any
+/// @param attributes  of the mesh: its materials and groups; without them no triangle is of any
 std::vector<Region> select_regions(const TriMesh& mesh, const std::vector<RegionRule>& rules,
                                    const SurfaceAttributes& attributes = {});
 

@@ -11,6 +11,27 @@ T& grown(std::vector<T>& list, std::size_t i, const T& fill) {
   return list[i];
 }
 
+/// The triangle has the name `current`.
+void add_named(std::size_t triangle, const std::string& current, std::vector<int>& of_triangle,
+               std::vector<std::string>& names) {
+  if (current.empty()) return;
+  auto known = std::find(names.begin(), names.end(), current);
+  if (known == names.end()) {
+    names.push_back(current);
+    known = names.end() - 1;
+  }
+  grown(of_triangle, triangle, -1) = static_cast<int>(known - names.begin());
+}
+
+/// Triangles without a name get "default", if any has one.
+void name_the_rest(std::size_t triangles, std::vector<int>& of_triangle, std::vector<std::string>& names) {
+  if (of_triangle.empty()) return;
+  of_triangle.resize(triangles, -1);
+  if (std::find(of_triangle.begin(), of_triangle.end(), -1) == of_triangle.end()) return;
+  std::replace(of_triangle.begin(), of_triangle.end(), -1, static_cast<int>(names.size()));
+  names.push_back("default");
+}
+
 }  // namespace
 
 Vec3 barycentric_weights(const Triangle& triangle, const Vec3& x) {
@@ -27,9 +48,16 @@ Vec3 barycentric_weights(const Triangle& triangle, const Vec3& x) {
   return sum > 0 ? Vec3(w / sum) : Vec3(Vec3::Constant(1.0 / 3.0));
 }
 
+bool is_among(const std::string& names, const std::string& name) {
+  return (' ' + names + ' ').find(' ' + name + ' ') != std::string::npos;
+}
+
 void AttributeCollector::use_material(const std::string& name) {
-  current_ = name.empty() ? "unnamed" : name;
-  named_ = true;
+  material_ = name.empty() ? "unnamed" : name;
+}
+
+void AttributeCollector::use_groups(const std::string& names) {
+  groups_ = names.empty() ? "default" : names;
 }
 
 void AttributeCollector::add_normal(std::size_t triangle, int corner, const Vec3& normal) {
@@ -43,25 +71,15 @@ void AttributeCollector::add_uv(std::size_t triangle, int corner, const Vec2& uv
 }
 
 void AttributeCollector::add_triangle(std::size_t triangle) {
-  if (!named_) return;
-  auto known = std::find(out_.materials.begin(), out_.materials.end(), current_);
-  if (known == out_.materials.end()) {
-    out_.materials.push_back(current_);
-    known = out_.materials.end() - 1;
-  }
-  grown(out_.material, triangle, -1) = static_cast<int>(known - out_.materials.begin());
+  add_named(triangle, material_, out_.material, out_.materials);
+  add_named(triangle, groups_, out_.group, out_.groups);
 }
 
 SurfaceAttributes AttributeCollector::finish(std::size_t triangles) {
   if (!out_.normal.empty()) out_.normal.resize(triangles, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()});
   if (!out_.uv.empty()) out_.uv.resize(triangles, {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()});
-  if (!out_.material.empty()) {
-    out_.material.resize(triangles, -1);
-    if (std::find(out_.material.begin(), out_.material.end(), -1) != out_.material.end()) {
-      std::replace(out_.material.begin(), out_.material.end(), -1, static_cast<int>(out_.materials.size()));
-      out_.materials.push_back("default");
-    }
-  }
+  name_the_rest(triangles, out_.material, out_.materials);
+  name_the_rest(triangles, out_.group, out_.groups);
   return std::move(out_);
 }
 

@@ -16,9 +16,14 @@ struct SurfaceAttributes {
   std::vector<std::array<Vec2, 3>> uv;      ///< texture coordinates, v upward; zero at a corner without
   std::vector<int> material;                ///< per triangle: index into `materials`
   std::vector<std::string> materials;
+  std::vector<int> group;           ///< per triangle: index into `groups`
+  std::vector<std::string> groups;  ///< names of the groups that a triangle is in, spaces between them
 
-  bool empty() const { return normal.empty() && uv.empty() && material.empty(); }
+  bool empty() const { return normal.empty() && uv.empty() && material.empty() && group.empty(); }
 };
+
+/// Whether a list of names with spaces between them holds this one.
+bool is_among(const std::string& names, const std::string& name);
 
 struct AttributedMesh {
   TriMesh mesh;
@@ -34,19 +39,20 @@ class AttributeCollector {
  public:
   /// Names of materials get their numbers in the order of their first triangle.
   void use_material(const std::string& name);
+  /// Names with spaces between them; the triangles that follow are in all of these groups.
+  void use_groups(const std::string& names);
   void add_normal(std::size_t triangle, int corner, const Vec3& normal);
   void add_uv(std::size_t triangle, int corner, const Vec2& uv);
   bool has_normal() const { return !out_.normal.empty(); }
   bool has_uv() const { return !out_.uv.empty(); }
-  /// The current material belongs to the triangle.
+  /// The current material and groups belong to the triangle.
   void add_triangle(std::size_t triangle);
   /// @param triangles  how many the mesh has
   SurfaceAttributes finish(std::size_t triangles);
 
  private:
   SurfaceAttributes out_;
-  std::string current_;
-  bool named_ = false;
+  std::string material_, groups_;  // current ones; empty: none was named yet
 };
 
 }  // namespace conchoid

@@ -125,9 +125,10 @@ std::optional<ResolutionAdvice> advise(const TriMesh& mesh, const SurfaceReport&
     wanted = triangles_with_edges(mesh, edge);
   }
   advice.surface = std::clamp(report.mean_edge, advice.crack / 40, advice.crack / 5);
-  const double most = report.coarse_walls ? static_cast<double>(most_advised_elements) : 10000.0;
-  if (static_cast<double>(report.triangles) > 1.5 * wanted || report.coarse_walls)
-    advice.remesh = static_cast<std::size_t>(std::clamp(100 * std::round(wanted / 100), 100.0, most));
+  if (report.coarse_walls)
+    advice.remesh = report.coarse_walls->advised_triangles();
+  else if (static_cast<double>(report.triangles) > 1.5 * wanted)
+    advice.remesh = static_cast<std::size_t>(std::clamp(100 * std::round(wanted / 100), 100.0, 10000.0));
   return advice;
 }
 

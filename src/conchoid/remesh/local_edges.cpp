@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/wall_thickness.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
 #include "conchoid/remesh/wall_resolution.hpp"
@@ -21,15 +22,60 @@ constexpr double longest_for_limits = 20;  // × the mean edge: of what has no l
 constexpr double aimed =
     0.85;  // × triangles: edges come out a little longer than asked for, and grow by steps
 constexpr int halvings = 40;
+constexpr double most_places = 4e6;  // of a surface that are asked whether a limit holds
 
-/// The same surface with edges of at most `longest`: nodes enough to hold a field.
-TriMesh divided(const TriMesh& mesh, double longest) {
+/// Where on a surface a limit holds, at points half its edge apart.
+class LimitedPlaces {
+ public:
+  LimitedPlaces(const TriMesh& mesh, const EdgeLimit& limit)
+      : edge_(limit.edge), places_(points_of(mesh, limit)), tree_(places_) {}
+
+  /// Whether an edge is too long for what is near it.
+  bool forbids(const Vec3& middle, double length) const {
+    return length > edge_ && !places_.corners.empty() &&
+           tree_.closest(middle).squared_distance < length * length;
+  }
+
+ private:
+  static TriMesh points_of(const TriMesh& mesh, const EdgeLimit& limit) {
+    const double apart = std::max(limit.edge / 2, std::sqrt(surface_area(mesh) / most_places));
+    TriMesh points;
+    for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value) {
+      const Triangle x = mesh.triangle(t);
+      const double longest = std::max({(x[0] - x[1]).norm(), (x[1] - x[2]).norm(), (x[2] - x[0]).norm()});
+      const int n = std::max(1, static_cast<int>(std::ceil(longest / apart)));
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; i + j <= n; ++j) {
+          const Vec3 at = x[0] + (x[1] - x[0]) * i / n + (x[2] - x[0]) * j / n;
+          if (!limit.holds(at)) continue;
+          const NodeId place = points.positions.add(at);
+          points.corners.push_back({place, place, place});
+        }
+    }
+    return points;
+  }
+
+  double edge_;
+  TriMesh places_;
+  ClosestPointTree tree_;
+};
+
+/// The same surface with edges of at most `longest`, and of at most what limits ask for where they hold: nodes enough to
+/// hold a field.
+TriMesh divided(const TriMesh& mesh, double longest, const std::vector<EdgeLimit>& limits) {
+  std::vector<LimitedPlaces> limited;
+  for (const EdgeLimit& limit : limits)
+    limited.emplace_back(mesh, limit);
   EditableMesh fine(mesh, longest);
   for (bool changed = true; changed;) {
     changed = false;
-    for (const Edge& e : fine.edges())
-      if (fine.length(e) > longest)
-        changed = fine.split(e, 0.5 * (fine.position(e.a) + fine.position(e.b))).valid() || changed;
+    for (const Edge& e : fine.edges()) {
+      const double length = fine.length(e);
+      const Vec3 middle = 0.5 * (fine.position(e.a) + fine.position(e.b));
+      if (length > longest || std::any_of(limited.begin(), limited.end(),
+                                          [&](const LimitedPlaces& l) { return l.forbids(middle, length); }))
+        changed = fine.split(e, middle).valid() || changed;
+    }
   }
   return fine.compact();
 }
@@ -85,7 +131,7 @@ std::optional<LocalEdges> local_edges(const SizeField& plain, double edge, std::
   if (!settings.any()) return std::nullopt;
   const double wanted = aimed * static_cast<double>(target);
   const double mean = edge * std::sqrt(plain.triangle_count(edge) / static_cast<double>(target));
-  const SizeField field(divided(plain.samples(), edge), edge);
+  const SizeField field(divided(plain.samples(), edge, settings.limits), edge);
   const TriMesh& mesh = field.samples();
   IdVector<NodeId, double> plain_edges(mesh.node_count());
   for (NodeId n(0); n.index() < plain_edges.size(); ++n.value)

@@ -17,7 +17,8 @@ constexpr double locking = 0.08, unpaired_locking = 0.006;  // of (h/t)², (h/t)
 constexpr double quadratic_locking = 6e-7;                  // of (h/t)⁵
 constexpr double opposite = 0.2;                            // × h: nodes so near lie opposite each other
 constexpr std::size_t most_samples = 50000;                 // triangles of a fine mesh that are measured
-constexpr double telling_share = 0.05;                      // of the surface
+constexpr double edges_per_size = 10;   // of stout parts, beside the cube root of the volume
+constexpr double telling_share = 0.05;  // of the surface
 constexpr double triangles_margin =
     1.1;  // for sizes that grow from thin to stout, and for triangles that are not equilateral
 
@@ -99,6 +100,10 @@ TriId triangle_at(std::vector<Part> parts, double area) {
   return parts.back().triangle;
 }
 
+long percent(double x) {
+  return std::lround(100 * x);
+}
+
 /// Upward, to two digits.
 std::size_t rounded_up(double count) {
   const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(count)) - 1));
@@ -116,41 +121,76 @@ double shown_bending_by_quadratic(double edge_over_thickness) {
   return 1 / (1 + quadratic_locking * std::pow(edge_over_thickness, 5));
 }
 
-double CoarseWalls::shown_by_most() const {
-  return shown_bending(
-      wall_edge_share * std::sqrt(static_cast<double>(wanted_triangles) / most_advised_elements), false);
+std::optional<std::size_t> CoarseWalls::advised_triangles() const {
+  if (quadratic_by_themselves() && shown_by_quadratic() >= least_shown) return std::nullopt;
+  return std::min(quadratic_triangles, most_quadratic_elements);
 }
 
 std::string CoarseWalls::text() const {
   std::ostringstream out;
   out.precision(2);
-  const auto percent = [](double x) { return std::lround(100 * x); };
-  out << "elements of " << edge << " m on a wall of " << thickness << " m (" << percent(share)
-      << " % of the surface) show about " << percent(shown)
-      << " % of the bending stress, and cracks in it open less than they should; ";
-  if (affordable())
-    out << "body.remesh = " << wanted_triangles << ", or a mesh with edges of at most " << wanted_edge
-        << " m there, would show " << percent(least_shown) << " %";
+  out << here() << " show about " << percent(shown)
+      << " % of the bending stress as linear ones, and cracks in it open less than they should; ";
+  if (quadratic_by_themselves())
+    out << "run.elements = \"auto\", quadratic ones, would show " << percent(shown_by_quadratic()) << " %";
   else
-    out << "for " << percent(least_shown) << " % it takes edges of at most " << wanted_edge
-        << " m, all over about " << wanted_triangles << " triangles and " << std::lround(bytes() / 1e9)
-        << " GB of memory; body.remesh = " << most_advised_elements << " would show about "
-        << percent(shown_by_most())
-        << " %. Or ask for short edges only where it breaks: a [[region]] with edge = " << wanted_edge;
+    out << quadratic_remedy();
+  if (affordable())
+    out << "; linear ones show " << percent(least_shown) << " % with body.remesh = " << wanted_triangles
+        << ", or with edges of at most " << wanted_edge << " m there";
+  return out.str();
+}
+
+std::string CoarseWalls::text_of_auto() const {
+  if (!quadratic_by_themselves()) return text();
+  std::ostringstream out;
+  out.precision(2);
+  out << here() << ": a run takes quadratic ones by itself (run.elements), which show "
+      << (shown_by_quadratic() >= least_shown ? "about " : "as little as ") << percent(shown_by_quadratic())
+      << " % of the bending stress; linear ones would show " << percent(shown) << " %";
+  if (shown_by_quadratic() < least_shown) out << "; " << quadratic_remedy();
+  return out.str();
+}
+
+std::string CoarseWalls::here() const {
+  std::ostringstream out;
+  out.precision(2);
+  out << "elements of " << edge << " m on a wall of " << thickness << " m (" << percent(share)
+      << " % of the surface)";
+  return out.str();
+}
+
+std::string CoarseWalls::quadratic_remedy() const {
+  std::ostringstream out;
+  out.precision(2);
+  if (quadratic_triangles <= most_quadratic_elements) {
+    out << "with body.remesh = " << quadratic_triangles
+        << " a run takes quadratic ones by itself, which show " << percent(least_shown) << " % or more";
+    return out.str();
+  }
+  out << "for " << percent(least_shown) << " % it takes edges of at most " << quadratic_edge
+      << " m, all over about " << quadratic_triangles << " triangles with run.elements = \"quadratic\" and "
+      << std::lround(quadratic_bytes(static_cast<double>(quadratic_triangles)) / 1e9)
+      << " GB of memory. Or ask for short edges only where it breaks: body.remesh = "
+      << most_quadratic_elements << " and a [[region]] with edge = " << quadratic_edge;
   return out.str();
 }
 
 std::optional<CoarseWalls> coarse_walls(const TriMesh& elements) {
   const IdVector<TriId, double> edges = smoothed_edges(elements);
   const IdVector<TriId, double> thickness = WallProbe(elements).thickness(edges);
+  const double stout_edge = std::cbrt(enclosed_volume(elements)) / edges_per_size;
   std::vector<Part> coarse, thin;
-  double all = 0, part = 0, triangles = 0;
+  double all = 0, part = 0, triangles = 0, quadratic = 0;
   for (TriId t(0); t.index() < edges.size(); ++t.value) {
     const double area = area_vector(elements, t).norm();
     const double edge = std::min(edges[t], wall_edge_share * thickness[t]);
     all += area;
     triangles += equilateral_triangles(area, edge);
-    if (edges[t] <= largest_edge_share() * thickness[t]) continue;
+    const bool stout = edges[t] <= largest_edge_share() * thickness[t];
+    quadratic += equilateral_triangles(
+        area, stout ? std::max(edges[t], stout_edge) : quadratic_wall_edge_share * thickness[t]);
+    if (stout) continue;
     part += area;
     coarse.push_back({edges[t] / thickness[t], t, area});
     thin.push_back({1 / thickness[t], t, area});
@@ -165,7 +205,11 @@ std::optional<CoarseWalls> coarse_walls(const TriMesh& elements) {
                      .paired = paired,
                      .shown = shown_bending(edges[typical] / thickness[typical], paired),
                      .wanted_edge = wall_edge_share * thickness[thinnest],
-                     .wanted_triangles = rounded_up(triangles_margin * triangles)};
+                     .wanted_triangles = rounded_up(triangles_margin * triangles),
+                     .triangles = elements.triangle_count(),
+                     .quadratic_edge = quadratic_wall_edge_share * thickness[thinnest],
+                     .quadratic_triangles = rounded_up(std::max(
+                         triangles_margin * quadratic, static_cast<double>(least_quadratic_elements)))};
 }
 
 std::optional<double> thinnest_wall(const TriMesh& body, double reach) {

@@ -20,29 +20,48 @@ double shown_bending(double edge_over_thickness, bool paired);
 double shown_bending_by_quadratic(double edge_over_thickness);
 
 /// × thickness: edges that show nine tenths of the bending stress, with a margin for elements that differ.
-inline constexpr double wall_edge_share = 1;
+inline constexpr double wall_edge_share = 1, quadratic_wall_edge_share = 8;
 /// Less than this is worth a warning.
 inline constexpr double least_shown = 0.9;
-/// Boundary elements that are advised at most: the dense solver takes 37 n² bytes, here 10 GB.
+/// Linear elements that are advised at most: the dense solver takes 37 n² bytes, here 10 GB.
 inline constexpr std::size_t most_advised_elements = 16000;
 
-/// Walls that the boundary elements are too coarse for.
+/// Memory of the factors of so many quadratic elements, nothing of them held.
+constexpr double quadratic_bytes(double triangles) {
+  return 144 * triangles * triangles;
+}
+/// Triangles beyond which quadratic elements are not chosen by themselves: 2.3 GB.
+inline constexpr std::size_t most_quadratic_elements = 4000;
+/// Fewer are not advised: curved walls want them, and they take a minute.
+inline constexpr std::size_t least_quadratic_elements = 2000;
+
+/// Walls that linear boundary elements are too coarse for.
 struct CoarseWalls {
-  double share = 0;                  ///< of the surface
-  double edge = 0, thickness = 0;    ///< in the middle of that part, by area [m]
-  bool paired = false;               ///< its nodes lie opposite each other
-  double shown = 0;                  ///< of the bending stress, there
-  double wanted_edge = 0;            ///< that would show least_shown all over [m]
-  std::size_t wanted_triangles = 0;  ///< with edges that follow the thickness
-  double bytes() const {
-    return 37.0 * static_cast<double>(wanted_triangles) * static_cast<double>(wanted_triangles);
-  }
+  double share = 0;                     ///< of the surface
+  double edge = 0, thickness = 0;       ///< in the middle of that part, by area [m]
+  bool paired = false;                  ///< its nodes lie opposite each other
+  double shown = 0;                     ///< of the bending stress, there
+  double wanted_edge = 0;               ///< of linear elements that would show least_shown all over [m]
+  std::size_t wanted_triangles = 0;     ///< of these, with edges that follow the thickness
+  std::size_t triangles = 0;            ///< that there are
+  double quadratic_edge = 0;            ///< wanted_edge of quadratic elements [m]
+  std::size_t quadratic_triangles = 0;  ///< as many of these, at least least_quadratic_elements
+  /// Whether linear elements are.
   bool affordable() const { return wanted_triangles <= most_advised_elements; }
-  /// Shown by most_advised_elements in place of the wanted ones.
-  double shown_by_most() const;
-  /// "elements of 0.05 m on a wall of 0.01 m (98 % of the surface) show about 29 % of the bending stress; …": what
-  /// would do.
+  /// Whether run.elements = "auto" takes quadratic elements.
+  bool quadratic_by_themselves() const { return triangles <= most_quadratic_elements; }
+  double shown_by_quadratic() const { return shown_bending_by_quadratic(edge / thickness); }
+  /// Linear elements are used: "elements of 0.05 m on a wall of 0.01 m (98 % of the surface) show about 29 % of the
+  /// bending stress as linear ones, …": what would do.
   std::string text() const;
+  /// run.elements = "auto" decides: the same, or what the quadratic ones show.
+  std::string text_of_auto() const;
+  /// Triangles that a run with run.elements = "auto" wants; none where it shows least_shown with those there are.
+  std::optional<std::size_t> advised_triangles() const;
+
+ private:
+  std::string here() const;
+  std::string quadratic_remedy() const;
 };
 
 /// None where less than 5 % of the surface would show less than least_shown: slivers at an edge are no walls.

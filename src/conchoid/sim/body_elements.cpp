@@ -16,11 +16,11 @@ bool wants_quadratic(const RunSpec& run, const TriMesh& surface) {
 
 }  // namespace
 
-void choose_elements(const RunSpec& run, PreparedBody& body) {
+void choose_elements(const RunSpec& run, const std::vector<BoundaryKind>& kinds, PreparedBody& body) {
   if (!wants_quadratic(run, body.surface)) return;
   const auto make = [&] {
-    body.quadratic = std::make_shared<const QuadraticBody>(body.surface, body.elastic->kinds(),
-                                                           body.material.elastic(), run.quadrature_tolerance);
+    body.quadratic = std::make_shared<const QuadraticBody>(body.surface, kinds, body.material.elastic(),
+                                                           run.quadrature_tolerance, run.cache);
   };
   if (run.elements == ElementOrder::quadratic) return make();
   try {
@@ -36,9 +36,7 @@ std::string_view elements_of(const PreparedBody& body) {
 }
 
 LoadCase as_elements_take(LoadCase load, const PreparedBody& body) {
-  if (!body.quadratic) return load;
-  AmbientField field = field_of(body.quadratic->solve(load));
-  return load_case(body.surface, free_surface(body.surface), std::move(field));
+  return body.quadratic ? as_field(*body.quadratic, load) : load;
 }
 
 }  // namespace conchoid

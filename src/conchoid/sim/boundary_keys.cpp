@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/sim/scene_parser.hpp"
@@ -12,7 +13,7 @@ bool anything_held(const BoundaryCondition& condition) {
   return std::any_of(condition.held.begin(), condition.held.end(), [](bool held) { return held; });
 }
 
-// displacement, with "free" components, and the traction that those may have.
+// displacement, with "free" components.
 void read_displacement(const TomlTable& table, BoundaryCondition& condition) {
   std::array<std::optional<double>, 3> components;
   table.read("displacement", components);
@@ -26,15 +27,6 @@ void read_displacement(const TomlTable& table, BoundaryCondition& condition) {
                "boundary.displacement leaves every component free, which says nothing; prescribe one or "
                "remove this [[boundary]]");
   condition.value = condition.axes * value;
-  if (!table.has("traction")) return;
-  Vec3 traction = Vec3::Zero();
-  table.read("traction", traction);
-  for (std::size_t k = 0; k < 3; ++k)
-    if (condition.held[k] && traction[static_cast<int>(k)] != 0)
-      table.fail("traction", fmt::format("boundary.traction has {} Pa along axis {}, whose displacement is "
-                                         "prescribed; make it 0, or \"free\" there",
-                                         traction[static_cast<int>(k)], k + 1));
-  condition.free_traction = condition.axes * traction;
 }
 
 void read_vector(const TomlTable& table, std::string_view key, const Mat3& axes, Vec3& value) {
@@ -50,37 +42,62 @@ void require_held(const TomlTable& table) {
     table.fail("fixed", "fixed = false says nothing; remove this [[boundary]] or write fixed = true");
 }
 
+bool has_any(const TomlTable& table, const std::vector<std::string_view>& keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](auto key) { return table.has(key); });
+}
+
+// traction, force with or without a moment, or pressure.
+void read_load(const TomlTable& table, BoundaryCondition& condition, ConditionKind& kind, Vec3& value) {
+  if (has_any(table, {"force", "moment"})) {
+    if (has_any(table, {"traction", "pressure"}))
+      one_of(table, {"traction", "force", "moment", "pressure"}, "[[boundary]]");
+    kind = ConditionKind::force;
+    read_vector(table, "force", condition.axes, value);
+    read_vector(table, "moment", condition.axes, condition.moment);
+  } else if (one_of(table, {"traction", "pressure"}, "[[boundary]]") == "pressure") {
+    kind = ConditionKind::pressure;
+    table.read("pressure", condition.pressure);
+  } else {
+    kind = ConditionKind::traction;
+    read_vector(table, "traction", condition.axes, value);
+  }
+}
+
+// Along what is held a load would go straight into the support.
+void require_free(const TomlTable& table, std::string_view key, const Vec3& value,
+                  const BoundaryCondition& condition) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double component = condition.axes.col(static_cast<int>(k)).dot(value);
+    if (condition.held[k] && std::abs(component) > 1e-12 * value.norm())
+      table.fail(key, fmt::format("boundary.{} has {} along axis {}, whose displacement is prescribed; make "
+                                  "it 0, or the displacement \"free\" there",
+                                  key, component, k + 1));
+  }
+}
+
 BoundaryCondition read_condition(const TomlTable& table) {
   table.require_known_keys();
   BoundaryCondition condition{.region = {}, .where = table.where()};
   table.require("region", condition.region);
   condition.axes = read_axes(table, "boundary");
-  const auto has = [&](const std::vector<std::string_view>& keys) {
-    return std::any_of(keys.begin(), keys.end(), [&](auto key) { return table.has(key); });
-  };
-  if (table.has("displacement") && !has({"force", "moment", "pressure", "fixed"})) {
+  const std::vector<std::string_view> loads{"traction", "force", "moment", "pressure"};
+  if (table.has("displacement") && !table.has("fixed")) {
     condition.kind = ConditionKind::displacement;
     read_displacement(table, condition);
+    if (has_any(table, loads)) {
+      read_load(table, condition, condition.free_kind, condition.free_value);
+      require_free(table, condition.free_kind == ConditionKind::force ? "force" : "traction",
+                   condition.free_value, condition);
+    }
     return condition;
   }
-  if (has({"force", "moment"}) && !has({"traction", "pressure", "displacement", "fixed"})) {
-    condition.kind = ConditionKind::force;
-    read_vector(table, "force", condition.axes, condition.value);
-    read_vector(table, "moment", condition.axes, condition.moment);
-    return condition;
-  }
-  const std::string_view key =
-      one_of(table, {"traction", "force", "moment", "pressure", "displacement", "fixed"}, "[[boundary]]");
-  if (key == "fixed") {
+  if (has_any(table, {"displacement", "fixed"}) || !has_any(table, loads)) {
+    one_of(table, {"traction", "force", "moment", "pressure", "displacement", "fixed"}, "[[boundary]]");
     require_held(table);
     condition.kind = ConditionKind::displacement;
-  } else if (key == "pressure") {
-    condition.kind = ConditionKind::pressure;
-    table.read("pressure", condition.pressure);
-  } else {
-    condition.kind = ConditionKind::traction;
-    read_vector(table, "traction", condition.axes, condition.value);
+    return condition;
   }
+  read_load(table, condition, condition.kind, condition.value);
   return condition;
 }
 

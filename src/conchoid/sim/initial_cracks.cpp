@@ -130,14 +130,20 @@ TriMesh crack_sheet(const CrackSpec& spec, double edge) {
   return sheet;
 }
 
+std::optional<TriMesh> sheet_if_in_body(const TriMesh& sheet, const TriMesh& surface) {
+  TriMesh out = clear_of_surface(stick_out(sheet, ClosestPointTree(surface)), surface);
+  if (corefine(surface, out).sheet.empty()) return std::nullopt;
+  return out;
+}
+
 TriMesh sheet_in_body(const TriMesh& sheet, const TriMesh& surface, const std::string& where) {
-  const TriMesh out = clear_of_surface(stick_out(sheet, ClosestPointTree(surface)), surface);
-  if (corefine(surface, out).sheet.empty())
+  std::optional<TriMesh> out = sheet_if_in_body(sheet, surface);
+  if (!out)
     throw InputError(
         where +
         ": the crack lies outside of the body; give it a place inside, in the body's coordinates "
         "(body.scale changes the body, not the crack)");
-  return out;
+  return std::move(*out);
 }
 
 }  // namespace conchoid

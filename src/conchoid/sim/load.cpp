@@ -71,7 +71,6 @@ void hold(const TriMesh& surface, const Region& region, const BoundaryCondition&
   const BoundaryKind kind = BoundaryKind::holding(condition.held_directions());
   for (TriId t : region.triangles) {
     data.kind[t.index()] = kind;
-    data.traction[t.index()] = condition.free_traction;
     for (NodeId node : surface.corners[t])
       nodes.prescribe(node, number, kind.held(), condition.value);
   }
@@ -79,12 +78,23 @@ void hold(const TriMesh& surface, const Region& region, const BoundaryCondition&
 
 void load(const PreparedBody& body, const Region& region, const BoundaryCondition& condition,
           BoundaryData& data) {
-  LinearTraction given{condition.value, condition.twist, condition.about - body.origin};
-  if (condition.kind == ConditionKind::force) given = spread_force(body.surface, region, condition);
-  for (TriId t : region.triangles)
-    data.traction[t.index()] = condition.kind == ConditionKind::pressure
-                                   ? Vec3(-condition.pressure * unit_normal(body.surface, t))
-                                   : given.at(centroid(body.surface, t));
+  const Mat3 free = condition.free_directions();
+  const BoundaryCondition acting = condition.load();
+  LinearTraction given{acting.value, acting.twist, acting.about - body.origin};
+  if (acting.kind == ConditionKind::force) given = spread_force(body.surface, region, condition);
+  bool acts = false;
+  for (TriId t : region.triangles) {
+    const Vec3 traction = acting.kind == ConditionKind::pressure
+                              ? Vec3(-acting.pressure * unit_normal(body.surface, t))
+                              : given.at(centroid(body.surface, t));
+    data.traction[t.index()] = free * traction;
+    acts = acts || data.traction[t.index()].norm() > 1e-9 * traction.norm();
+  }
+  if (!acts && condition.is_loaded())
+    throw InputError(fmt::format(
+        "{}: the load on region '{}' acts only in directions whose displacement is prescribed there, so that "
+        "nothing feels it; leave a component \"free\" along which it acts, or remove it",
+        condition.where, condition.region));
 }
 
 BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
@@ -96,10 +106,8 @@ BoundaryData conditions_of(const Scene& scene, const PreparedBody& body) {
     if (!region || region->triangles.empty())
       throw InputError(
           fmt::format("{}: region '{}' has no triangles; widen it", condition.where, condition.region));
-    if (condition.kind == ConditionKind::displacement)
-      hold(body.surface, *region, condition, b, nodes, data);
-    else
-      load(body, *region, condition, data);
+    if (condition.kind == ConditionKind::displacement) hold(body.surface, *region, condition, b, nodes, data);
+    load(body, *region, condition, data);
   }
   for (std::size_t i = 0; i < body.surface.node_count(); ++i)
     data.displacement[NodeId(i)] = nodes.value(NodeId(i));

@@ -12,9 +12,9 @@
 namespace conchoid {
 namespace {
 
-constexpr int kFewestElements = 120;                   // of a piece, however small: as the built-in cube
+constexpr int kFewestElements = 120;                     // of a piece, however small: as the built-in cube
 constexpr std::array kTargets{1.0, 1.4, 2.0, 2.8, 4.0};  // × the elements wanted, until the mesh can be made
-constexpr int kMostElements = 200000, kFewFaces = 20;  // that remesh() takes
+constexpr int kMostElements = 200000, kFewFaces = 20;    // that remesh() takes
 
 TriMesh elements_of(const TriMesh& piece, double element_area) {
   const double wanted = std::max<double>(kFewestElements, surface_area(piece) / element_area);
@@ -79,11 +79,12 @@ PieceScene scene_of_piece(const Scene& scene, const PreparedBody& body, const Fr
   out.scene.boundary.clear();
   for (BoundaryCondition condition : scene.boundary) {
     if (!find_region(out.body.regions, condition.region)) continue;
-    if (condition.kind == ConditionKind::force) {
+    if (condition.load().kind == ConditionKind::force) {
       const LinearTraction spread =
           spread_force(body.surface, *find_region(body.regions, condition.region), condition);
-      condition.kind = ConditionKind::traction;
-      condition.value = spread.traction;
+      const bool beside = condition.kind == ConditionKind::displacement;
+      (beside ? condition.free_kind : condition.kind) = ConditionKind::traction;
+      (beside ? condition.free_value : condition.value) = spread.traction;
       condition.twist = spread.twist;
       condition.about = spread.about + body.origin;
     }
@@ -102,11 +103,8 @@ bool is_loaded(const Scene& scene) {
   const BoundaryCondition* held = nullptr;
   bool moved = false, alike = true;
   for (const BoundaryCondition& c : scene.boundary) {
-    if (c.kind != ConditionKind::displacement) {
-      if (!c.value.isZero(0) || !c.moment.isZero(0) || !c.twist.isZero(0) || c.pressure != 0) return true;
-      continue;
-    }
-    if (!c.free_traction.isZero(0)) return true;
+    if (c.is_loaded()) return true;
+    if (c.kind != ConditionKind::displacement) continue;
     moved = moved || !c.value.isZero(0);
     alike = alike && (!held || (held->value == c.value && held->held == c.held && held->axes == c.axes));
     held = &c;

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/log.hpp"
+#include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/body_elements.hpp"
@@ -44,8 +46,17 @@ void add_cracks(const Scene& scene, const std::vector<TriMesh>& of_body, Prepare
     move(sheet, -out.origin);
     out.cracks.push_back(out.infinite() ? std::move(sheet) : sheet_in_body(sheet, out.surface, where));
   };
-  for (const TriMesh& sheet : of_body)
-    add(sheet, scene.body.where);
+  for (TriMesh sheet :
+       of_body) {  // of a piece, whose boundary elements may leave out what a small one lies in
+    move(sheet, -out.origin);
+    if (std::optional<TriMesh> inside = sheet_if_in_body(sheet, out.surface))
+      out.cracks.push_back(std::move(*inside));
+    else
+      warning(
+          fmt::format("a crack of {:.2g} m² that was left in a piece lies outside of its boundary elements "
+                      "and ends there",
+                      surface_area(sheet)));
+  }
   for (const CrackSpec& spec : scene.cracks)
     add(crack_sheet(spec, out.crack_edge), spec.where);
   if (out.infinite() && out.cracks.empty())
@@ -79,16 +90,14 @@ void require_one_body(const Scene& scene, const TriMesh& surface) {
                     scene.body.where, bodies));
 }
 
-// The file's materials on the boundary elements: that of the nearest triangle of the detailed body.
-SurfaceAttributes element_materials(const Body& body) {
-  SurfaceAttributes out;
-  if (body.attributes.material.empty()) return out;
-  out.materials = body.attributes.materials;
+// The file's materials and groups on the boundary elements: those of the nearest triangle of the detailed body.
+SurfaceAttributes element_attributes(const Body& body) {
+  if (body.attributes.material.empty() && body.attributes.group.empty()) return {};
   const ClosestPointTree detailed(body.detailed);
+  std::vector<TriId> nearest;
   for (std::size_t t = 0; t < body.surface.triangle_count(); ++t)
-    out.material.push_back(
-        body.attributes.material[detailed.closest(centroid(body.surface, TriId(t))).triangle.index()]);
-  return out;
+    nearest.push_back(detailed.closest(centroid(body.surface, TriId(t))).triangle);
+  return attributes_of(body.attributes, nearest);
 }
 
 }  // namespace
@@ -107,7 +116,7 @@ Body scene_body(const Scene& scene) {
 PreparedBody prepare(const Scene& scene, Body body) {
   PreparedBody out;
   if (!body.infinite()) {
-    out.regions = scene_regions(scene, body.surface, body.regions, element_materials(body));
+    out.regions = scene_regions(scene, body.surface, body.regions, element_attributes(body));
     out.quiet.assign(body.surface.triangle_count(), 0);
     for (const std::string& name : scene.quiet_regions)
       if (const Region* region = find_region(out.regions, name))
@@ -142,11 +151,14 @@ PreparedBody prepare(const Scene& scene, Body body) {
       require_resolution(scene, out, surface_area(crack));
   // What is wrong with the conditions is said before anything is assembled.
   const LoadCase load = load_of(scene, out);
-  out.elastic = std::make_shared<const BodyOperator>(
-      out.surface, kinds_of(scene, out), scene.material.elastic(),
-      BemSettings{scene.run.quadrature_tolerance, scene.run.contact, scene.run.solver, scene.run.cache},
-      std::span(&load, 1));
-  choose_elements(scene.run, out);
+  std::vector<BoundaryKind> kinds = kinds_of(scene, out);
+  choose_elements(scene.run, kinds, out);
+  // Of quadratic elements nothing is prescribed any more (as_elements_take).
+  out.elastic =
+      std::make_shared<const BodyOperator>(out.surface, std::move(kinds), scene.material.elastic(),
+                                           BemSettings{scene.run.quadrature_tolerance, scene.run.contact,
+                                                       scene.run.solver, scene.run.cache, out.quadratic},
+                                           std::span(&load, out.quadratic ? 0 : 1));
   return out;
 }
 

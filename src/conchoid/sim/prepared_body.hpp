@@ -31,7 +31,7 @@ struct PreparedBody {
   double crack_edge = 0;        ///< r̄ [m]
   double surface_edge = 0;      ///< h [m]
   std::shared_ptr<const BodyOperator> elastic;  ///< of `surface`, for the kinds of the conditions
-  /// The same with quadratic displacements, which loads then come from (body_elements.hpp); empty: linear elements.
+  /// The same with quadratic displacements, in which loads are then solved and cracks open; empty: linear elements.
   std::shared_ptr<const QuadraticBody> quadratic;
 
   bool infinite() const { return surface.corners.empty(); }

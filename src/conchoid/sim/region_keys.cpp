@@ -59,8 +59,8 @@ SceneRegion read_region(const TomlTable& table) {
   SceneRegion region{.rule = {}, .edge = {}, .where = table.where()};
   RegionRule& rule = region.rule;
   table.require("name", rule.name);
-  const std::vector<std::string_view> choices{"half_spaces", "box",      "sphere",
-                                              "indenter",    "material", "nearest"};
+  const std::vector<std::string_view> choices{"half_spaces", "box",   "sphere", "indenter",
+                                              "material",    "group", "nearest"};
   if (std::none_of(choices.begin(), choices.end(), [&](auto key) { return table.has(key); }))
     table.fail({}, fmt::format("[[region]] says nothing about where it is; add one of {}",
                                fmt::join(choices, ", ")));
@@ -69,6 +69,7 @@ SceneRegion read_region(const TomlTable& table) {
   rule.ball = read_ball(table, "sphere");
   read_indenter(table, rule);
   table.read("material", rule.material);
+  table.read("group", rule.group);
   if (table.has("nearest")) {
     rule.nearest = Vec3::Zero();
     table.read("nearest", *rule.nearest);
@@ -90,7 +91,14 @@ std::string why_empty(const RegionRule& rule, const TriMesh& surface, const Surf
                ? "the file names no materials (usemtl of OBJ, material_index of faces in PLY)"
                : fmt::format("the file has no material of that name, but {}",
                              fmt::join(attributes.materials, ", "));
-  if (!rule.half_spaces.empty() && !rule.box && !rule.ball && !rule.indenter && rule.material.empty())
+  if (rule.half_spaces.empty() && !rule.group.empty() &&
+      std::none_of(attributes.groups.begin(), attributes.groups.end(),
+                   [&](const std::string& names) { return is_among(names, rule.group); }))
+    return attributes.groups.empty() ? "the file names no groups (g or o of OBJ)"
+                                     : fmt::format("the file has no group of that name, but {}",
+                                                   fmt::join(attributes.groups, ", "));
+  if (!rule.half_spaces.empty() && !rule.box && !rule.ball && !rule.indenter && rule.material.empty() &&
+      rule.group.empty())
     return fmt::format(
         "none has all three vertices in its half spaces, or an earlier region took them; move "
         "the half spaces ({})",
@@ -111,7 +119,7 @@ void read_regions(const TomlTable& file, Scene& scene) {
                                        region.rule.name, other.where));
     if (region.edge && !scene.body.remesh)
       table.fail("edge", "region.edge goes with body.remesh, which makes the boundary elements; add that");
-    if (region.edge && (region.rule.nearest || !region.rule.material.empty()))
+    if (region.edge && (region.rule.nearest || !region.rule.material.empty() || !region.rule.group.empty()))
       table.fail("edge", "region.edge needs a place: half_spaces, box, sphere or indenter alone");
     if (!region.initiation) scene.quiet_regions.push_back(region.rule.name);
     scene.regions.push_back(std::move(region));

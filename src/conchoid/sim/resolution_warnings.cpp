@@ -90,32 +90,20 @@ std::vector<std::string> depth_warnings(const PreparedBody& body, const CrackSta
     if (d.depth < least_rows * edge)
       out.push_back(fmt::format(
           "the crack at {} is {:.2g} m deep, hardly more than one of its edges of {:.2g} m: its K "
-          "is read from a single row of openings and may be a tenth off; use resolution.crack = {:.2g}, or a mesh of three rows",
+          "is read from a single row of openings and may be a tenth off; use resolution.crack = {:.2g}, or a "
+          "mesh of three rows",
           place(d.at + body.origin, edge), d.depth, edge, d.depth / 3));
   }
   return out;
 }
 
 std::vector<std::string> quadratic_warnings(const CoarseWalls& walls) {
-  constexpr double advised_ratio = 8;  // edge over thickness
-  const double shown = shown_bending_by_quadratic(walls.edge / walls.thickness);
+  const double shown = walls.shown_by_quadratic();
   if (shown >= least_shown) return {};
   return {fmt::format(
       "quadratic elements of {:.2g} m on a wall of {:.2g} m ({:.0f} % of the surface) may show as little as "
       "{:.0f} % of the bending stress; use edges of at most {:.2g} m there",
-      walls.edge, walls.thickness, 100 * walls.share, 100 * shown, advised_ratio * walls.thickness)};
-}
-
-// Loads on cracks are those of quadratic elements, the body that opens around them is one of linear ones.
-std::vector<std::string> response_warnings(const PreparedBody& body) {
-  if (!body.quadratic) return {};
-  const auto walls = coarse_walls(body.surface);
-  if (!walls) return {};
-  return {fmt::format(
-      "cracks feel the stress of quadratic elements, but the wall of {:.2g} m bends around them as linear "
-      "elements of {:.2g} m let it, with about {:.0f} % of its compliance: cracks start where they should, "
-      "and open less than they should once they are longer than the wall is thick",
-      walls->thickness, walls->edge, 100 * walls->shown)};
+      walls.edge, walls.thickness, 100 * walls.share, 100 * shown, walls.quadratic_edge)};
 }
 
 }  // namespace
@@ -125,9 +113,7 @@ std::vector<std::string> element_warnings(const PreparedBody& body) {
   const auto walls = coarse_walls(body.surface);
   if (!walls) return {};
   if (body.quadratic) return quadratic_warnings(*walls);
-  const auto n = static_cast<double>(body.surface.triangle_count());
-  return {fmt::format("{}; or run.elements = \"quadratic\", with {:.2g} GB of memory for these elements",
-                      walls->text(), 1e-9 * quadratic_bytes(n))};
+  return {walls->text()};
 }
 
 std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack,
@@ -136,10 +122,7 @@ std::vector<std::string> resolution_warnings(const PreparedBody& body, const Cra
   const auto add = [&](std::vector<std::string> more) {
     std::move(more.begin(), more.end(), std::back_inserter(out));
   };
-  if (!body.infinite() && (growing || !body.cracks.empty())) {
-    add(response_warnings(body));
-    add(crack_edge_warnings(body));
-  }
+  if (!body.infinite() && (growing || !body.cracks.empty())) add(crack_edge_warnings(body));
   add(depth_warnings(body, crack));
   return out;
 }

@@ -327,4 +327,25 @@ std::vector<Vec3> BoundaryCondition::held_directions() const {
   return directions;
 }
 
+Mat3 BoundaryCondition::free_directions() const {
+  Mat3 free = Mat3::Identity();
+  if (kind == ConditionKind::displacement)
+    for (const Vec3& d : held_directions())
+      free -= d * d.transpose();
+  return free;
+}
+
+BoundaryCondition BoundaryCondition::load() const {
+  BoundaryCondition out = *this;
+  if (kind != ConditionKind::displacement) return out;
+  out.kind = free_kind;
+  out.value = free_value;
+  return out;
+}
+
+bool BoundaryCondition::is_loaded() const {
+  const Vec3& load = kind == ConditionKind::displacement ? free_value : value;
+  return !load.isZero(0) || !moment.isZero(0) || !twist.isZero(0) || pressure != 0;
+}
+
 }  // namespace conchoid

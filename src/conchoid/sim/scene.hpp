@@ -70,13 +70,20 @@ struct BoundaryCondition {
   std::string where;
   std::array<bool, 3> held{true, true, true};  ///< displacement: along which of the axes it is prescribed
   Mat3 axes = Mat3::Identity();                ///< displacement: columns, orthonormal
-  Vec3 free_traction = Vec3::Zero();           ///< displacement: in the other directions [Pa]
-  double pressure = 0;                         ///< pressure: along the inward normal [Pa]
-  Vec3 moment = Vec3::Zero();                  ///< force: about the centroid of the region [N m]
-  Vec3 twist = Vec3::Zero();                   ///< traction: t = value + twist × (x − about) [Pa/m]
-  Vec3 about = Vec3::Zero();                   ///< [m]
+  /// displacement: the load in the other directions, traction, force (both in free_value) or pressure
+  ConditionKind free_kind = ConditionKind::traction;
+  Vec3 free_value = Vec3::Zero();  ///< displacement: that traction [Pa] or force [N]
+  double pressure = 0;             ///< pressure: along the inward normal [Pa]
+  Vec3 moment = Vec3::Zero();      ///< force: about the centroid of the region [N m]
+  Vec3 twist = Vec3::Zero();       ///< traction: t = value + twist × (x − about) [Pa/m]
+  Vec3 about = Vec3::Zero();       ///< [m]
 
   std::vector<Vec3> held_directions() const;
+  /// Projection onto the directions in which nothing is prescribed.
+  Mat3 free_directions() const;
+  /// What acts in these: itself, or what stands beside a displacement, as a condition without one.
+  BoundaryCondition load() const;
+  bool is_loaded() const;  ///< whether that is not zero
 };
 
 /// Forces on every part of the body, with the material's density.

@@ -224,8 +224,10 @@ const std::vector<Setting>& settings() {
       {"region", "within", number, "m", "", "distance from the indenter's surface; required with it",
        above(0)},
       {"region", "material", text, "", "",
-       "a material that the mesh file gives triangles: usemtl of OBJ; material_3 for the face property "
+       "a material that the mesh file gives triangles: usemtl of OBJ, materials of glTF; material_3 for the "
+       "face property "
        "material_index (or material) = 3 of PLY"},
+      {"region", "group", text, "", "", "a group that the mesh file gives triangles: g or o of OBJ"},
       {"region",
        "nearest",
        numbers,
@@ -257,8 +259,8 @@ const std::vector<Setting>& settings() {
        components,
        "m",
        "",
-       "prescribed displacement; \"free\" components have the given traction, or none: [0.0, \"free\", "
-       "\"free\"] is a roller, or a plane of symmetry",
+       "prescribed displacement; in \"free\" components the load beside it acts (traction, force, moment or "
+       "pressure), or none: [0.0, \"free\", \"free\"] is a roller, or a plane of symmetry",
        {},
        3},
       {"boundary", "fixed", boolean, "", "", "true: no displacement"},

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "conchoid/bem/pair_blocks.hpp"
 #include "conchoid/core/error.hpp"
 
 namespace conchoid {
@@ -20,12 +21,14 @@ LinearTraction spread_force(const TriMesh& surface, const Region& region,
     center += part * centroid(surface, t);
   }
   center /= area;
-  LinearTraction out{condition.value / area, Vec3::Zero(), center};
+  const Mat3 free = condition.free_directions();
+  LinearTraction out{condition.load().value / area, Vec3::Zero(), center};
   if (condition.moment.isZero(0)) return out;
   Mat3 second = Mat3::Zero();
   for (TriId t : region.triangles) {
     const Vec3 d = centroid(surface, t) - center;
-    second += area_vector(surface, t).norm() * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+    const Mat3 arm = cross_matrix(d);
+    second += area_vector(surface, t).norm() * (arm * free * arm.transpose());
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(second);
   for (int k = 0; k < 3; ++k) {
@@ -34,11 +37,13 @@ LinearTraction spread_force(const TriMesh& surface, const Region& region,
     if (resists > on_a_line * eigen.eigenvalues()[2] && resists > 0)
       out.twist += moment / resists * axis;
     else if (std::abs(moment) > on_a_line * condition.moment.norm())
-      throw InputError(fmt::format(
-          "{}: the triangles of region '{}' are too few to carry the moment: their centres lie on a "
-          "line along ({:.3g} {:.3g} {:.3g}), about which no traction turns; widen the region, or "
-          "refine the mesh there",
-          condition.where, condition.region, axis[0], axis[1], axis[2]));
+      throw InputError(
+          fmt::format("{}: the triangles of region '{}' cannot carry the moment: about ({:.3g} {:.3g} "
+                      "{:.3g}) no traction "
+                      "in their centres turns, as far as its direction is free; widen the region, refine the "
+                      "mesh there, or "
+                      "leave a component \"free\" that turns",
+                      condition.where, condition.region, axis[0], axis[1], axis[2]));
   }
   return out;
 }
