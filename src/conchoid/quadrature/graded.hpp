@@ -37,7 +37,8 @@ Eigen::Matrix<double, N, 1> integrate_graded(const Triangle& outer, const PanelP
   // Each interval sees the steep edge from a third of its length: Gauss converges by 9 per point.
   const int order = static_cast<int>(std::ceil(-0.8 * std::log10(tolerance))) + 3;
   const auto levels = [&](double scale) {
-    return scale < 1 ? std::min(static_cast<int>(std::ceil(-std::log2(scale) / 2)), useful) : 0;
+    if (scale >= 1) return 0;
+    return static_cast<int>(std::min(std::ceil(-std::log2(std::max(scale, 1e-300)) / 2), double(useful)));
   };
   std::vector<std::vector<GradedNode>> across, along;
   for (int k = 0; k <= useful; ++k) {
