@@ -1,7 +1,6 @@
 #include "conchoid/mesh/box_tree.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "conchoid/core/interrupt.hpp"
 
@@ -12,22 +11,28 @@ constexpr std::size_t leaf_size = 4;
 
 }  // namespace
 
-BoxTree::BoxTree(const TriMesh& mesh) : order_(mesh.triangle_count()) {
-  std::vector<Vec3> centers;  // times three
+BoxTree::BoxTree(const TriMesh& mesh) {
+  std::vector<Item> items;
+  items.reserve(mesh.triangle_count());
+  boxes_.reserve(mesh.triangle_count());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Triangle x = mesh.triangle(TriId(t));
     boxes_.push_back(box_of(x));
-    centers.push_back(x[0] + x[1] + x[2]);
+    items.push_back({boxes_.back(), x[0] + x[1] + x[2], t});
   }
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  if (!order_.empty()) build(centers, 0, order_.size());
+  if (items.empty()) return;
+  branches_.reserve(items.size());
+  build(items, 0, items.size());
+  order_.reserve(items.size());
+  for (const Item& item : items)
+    order_.push_back(item.triangle);
 }
 
-std::size_t BoxTree::build(const std::vector<Vec3>& centers, std::size_t begin, std::size_t end) {
+std::size_t BoxTree::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
   throw_if_interrupted();
-  Box box = boxes_[order_[begin]];
+  Box box = items[begin].box;
   for (std::size_t i = begin + 1; i < end; ++i)
-    box = united(box, boxes_[order_[i]]);
+    box = united(box, items[i].box);
   const std::size_t id = branches_.size();
   branches_.push_back({box, begin, end, 0, 0});
   if (end - begin <= leaf_size) return id;
@@ -35,12 +40,12 @@ std::size_t BoxTree::build(const std::vector<Vec3>& centers, std::size_t begin, 
   Eigen::Index axis = 0;
   (box.high - box.low).maxCoeff(&axis);
   const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [&](std::size_t p, std::size_t q) {
-    const double cp = centers[p][axis], cq = centers[q][axis];
-    return cp != cq ? cp < cq : p < q;
+  const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(begin), at(middle), at(end), [axis](const Item& p, const Item& q) {
+    const double cp = p.center[axis], cq = q.center[axis];
+    return cp != cq ? cp < cq : p.triangle < q.triangle;
   });
-  const std::size_t left = build(centers, begin, middle), right = build(centers, middle, end);
+  const std::size_t left = build(items, begin, middle), right = build(items, middle, end);
   branches_[id].left = left;
   branches_[id].right = right;
   return id;

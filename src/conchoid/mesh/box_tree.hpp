@@ -41,7 +41,13 @@ class BoxTree {
   };
   static constexpr std::size_t deepest = 64;  ///< halving leaves no tree deeper than the bits of a size
 
-  std::size_t build(const std::vector<Vec3>& centers, std::size_t begin, std::size_t end);
+  /// A triangle on its way to its place: all that halving asks of it, side by side in memory.
+  struct Item {
+    Box box;
+    Vec3 center;  ///< times three
+    std::size_t triangle;
+  };
+  std::size_t build(std::vector<Item>& items, std::size_t begin, std::size_t end);
 
   std::vector<Box> boxes_;  ///< per triangle
   std::vector<std::size_t> order_;
