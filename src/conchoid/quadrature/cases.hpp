@@ -54,6 +54,11 @@ Vec3 common_vertex_double_layer(const TouchingPair& pair, double tolerance);
 Family near_single_layer(const Panel& x, const Panel& y, double tolerance);
 Vec3 near_double_layer(const Panel& x, const Panel& y, double tolerance);
 
+/// Near pairs by cells on the smaller panel and closed forms of the other; false where that takes more than `budget`
+/// points.
+bool cells_single_layer(const Panel& x, const Panel& y, double tolerance, int budget, Family& sum);
+bool cells_double_layer(const Panel& x, const Panel& y, double tolerance, int budget, Vec3& sum);
+
 /// Two panels in parallel planes at the distance |h|, which may be 0. There Δ(R − |h| log(R+|h|)) = 1/R and
 /// ∂_i ∂_j R = δ_ij/R − s_i s_j/R³ in the planes, so that both areas go over into their edges:    docs/theory.md (Q7)
 ///   ∫_X∫_Y 1/R = −Σ_e Σ_f (m_e·m_f) ∫_e∫_f (R − |h| log(R+|h|))

@@ -160,38 +160,23 @@ Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelP
   return sum;
 }
 
-/// ∫ over a triangle of a potential of `source`, smooth on the scale of the distance from it.
-/// @param f  f(points, values), some of them at once
-template <int N, class F>
-bool over_smooth_cells(Layer layer, const Triangle& whole, double area, const PanelPotential& source,
-                       double tolerance, int budget, const F& f, Eigen::Matrix<double, N, 1>& sum) {
-  const auto degree_of = [&](const Triangle& t) {
-    const Vec3 center = center_of(t);
-    return far_degree(layer, radius_of(t, center), distance_to_panel(center, source), tolerance);
-  };
-  const auto mean_of = [&](const Triangle& t, const TriangleRule& rule) {
-    return rule_mean_at_once<N>(t, rule, f);
-  };
-  return over_cells<N>(whole, area, degree_of, budget, mean_of, sum);
+/// X lies in the plane of Y, up to rounding.
+bool in_plane_of(const Panel& y, const Panel& x) {
+  const double noise = plane_noise(x, y);
+  return std::all_of(x.x.begin(), x.x.end(),
+                     [&](const Vec3& c) { return std::abs(y.normal.dot(c - y.x[0])) <= noise; });
 }
 
 constexpr int cheap_budget = 150;    // points: about the price of the edge form
 constexpr int costly_budget = 4000;  // points: about the price of the graded form
 
-Vec3 corner_functions_at(const PanelPotential& panel, const Points& x, int i) {
-  return panel.corner_functions({x.at[0][i], x.at[1][i], x.at[2][i]});
-}
-
 }  // namespace
 
 Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
+  Family sum;
+  if (cells_single_layer(px, py, tolerance, cheap_budget, sum)) return sum;
   const NearPair pair = near_pair(px, py);
-  const bool outer_x = pair.radius_x <= pair.radius_y;
   const PointPotentials around_x(pair.of_x), around_y(pair.of_y);
-  const PointPotentials& around = outer_x ? around_y : around_x;
-  const PanelPotential& inner = outer_x ? pair.of_y : pair.of_x;
-  const Triangle& outer = outer_x ? pair.x : pair.y;
-  const double outer_area = outer_x ? pair.area_x : pair.area_y;
   const auto about = [&](const Vec3& c) {
     const double allowed = tolerance * pair.area_x * pair.area_y / pair.diameter;
     const double rounding = 50 * epsilon;
@@ -201,50 +186,26 @@ Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
                    around_x.in_space(over_edges<7>(pair.of_y, pair.of_x, c, allowed, rounding, of_x))) /
                   3);
   };
-  const auto potential = [&](const Points& p, PointValues<7>& v) { around.single_layer(p, v); };
-  const auto cells = [&](int budget, Family& sum) {
-    if (!over_smooth_cells<7>(Layer::single, outer, outer_area, inner, tolerance, budget, potential, sum))
-      return false;
-    sum = around.in_space(sum);
-    return true;
-  };
-  Family sum;
-  if (cells(cheap_budget, sum)) return sum;
   if (parallel(pair, tolerance)) return parallel_single_layer(pair.as_parallel(), tolerance);
   if (std::max(largest_height(pair.x, pair.of_y), largest_height(pair.y, pair.of_x)) <=
       negligible(pair, tolerance))
     return about(Vec3::Zero());
   const std::optional<Apex> apex = best_apex(pair, false);
   if (apex && accurate(*apex, tolerance)) return about(apex->c);
-  if (cells(costly_budget, sum)) return sum;
+  if (cells_single_layer(px, py, tolerance, costly_budget, sum)) return sum;
   if (apex && steep(pair)) return about(apex->c);
-  return integrate_graded<7>(outer, inner, tolerance, [&](const Vec3& p) { return inner.single_layer(p); });
+  const bool outer_x = pair.radius_x <= pair.radius_y;
+  const PanelPotential& inner = outer_x ? pair.of_y : pair.of_x;
+  return integrate_graded<7>(outer_x ? pair.x : pair.y, inner, tolerance,
+                             [&](const Vec3& p) { return inner.single_layer(p); });
 }
 
 Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
+  if (in_plane_of(py, px)) return Vec3::Zero();
+  Vec3 sum;
+  if (cells_double_layer(px, py, tolerance, cheap_budget, sum)) return sum;
   const NearPair pair = near_pair(px, py);
-  if (coplanar(pair.x, pair.of_y, pair.noise)) return Vec3::Zero();
   const PointPotentials around_x(pair.of_x), around_y(pair.of_y);
-  // Cells over the smaller panel: potentials of Y over X, or the field of X over Y.
-  const auto cells = [&](int budget, Vec3& sum) {
-    const double cell_tolerance = tolerance / 4;
-    if (pair.radius_x <= pair.radius_y) {
-      const auto potential = [&](const Points& p, PointValues<3>& v) { around_y.double_layer(p, v); };
-      return over_smooth_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, cell_tolerance, budget,
-                                  potential, sum);
-    }
-    const auto field = [&](const Points& p, PointValues<3>& v) {
-      PointValues<1> along_normal;
-      around_x.gradient_along(pair.normal_y, p, along_normal);
-      for (int i = 0; i < p.padded; ++i) {
-        const Vec3 N = corner_functions_at(pair.of_y, p, i);
-        for (int k = 0; k < 3; ++k)
-          v.of[k][i] = along_normal.of[0][i] * N[k];
-      }
-    };
-    return over_smooth_cells<3>(Layer::dbl, pair.y, pair.area_y, pair.of_x, cell_tolerance, budget, field,
-                                sum);
-  };
   // N_j = N_j(c) + a part that vanishes at c: degree −2 (divisor 2) and −1 (divisor 3).
   const auto about = [&](const Vec3& c) {
     const double allowed = tolerance * pair.area_x * pair.area_y / (pair.diameter * pair.diameter);
@@ -263,7 +224,7 @@ Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
       PointValues<1> field;
       around_x.gradient_along(pair.normal_y, p, field);
       for (int i = 0; i < p.padded; ++i) {
-        const Vec3 N = corner_functions_at(pair.of_y, p, i);
+        const Vec3 N = pair.of_y.corner_functions({p.at[0][i], p.at[1][i], p.at[2][i]});
         for (int k = 0; k < 3; ++k)
           v.of[k][i] = field.of[0][i] * (N[k] / 3 + at_c[k] / 6);
       }
@@ -271,13 +232,11 @@ Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
     return Vec3(over_edges<3>(pair.of_x, pair.of_y, c, allowed, rounding, of_y) +
                 over_edges<3>(pair.of_y, pair.of_x, c, allowed, rounding, of_x));
   };
-  Vec3 sum;
-  if (cells(cheap_budget, sum)) return sum;
   if (parallel(pair, tolerance) && on_one_side(pair))
     return parallel_double_layer(pair.as_parallel(), tolerance);
   const std::optional<Apex> apex = best_apex(pair, true);
   if (apex && accurate(*apex, tolerance)) return about(apex->c);
-  if (cells(costly_budget, sum)) return sum;
+  if (cells_double_layer(px, py, tolerance, costly_budget, sum)) return sum;
   if (apex && steep(pair)) return about(apex->c);
   return integrate_graded<3>(pair.x, pair.of_y, tolerance,
                              [&](const Vec3& p) { return pair.of_y.double_layer(p); });
