@@ -47,7 +47,12 @@ class BoxTree {
     Vec3 center;  ///< times three
     std::size_t triangle;
   };
-  std::size_t build(std::vector<Item>& items, std::size_t begin, std::size_t end);
+  struct Part {
+    std::size_t branch, begin, end;
+  };
+  /// Halves the items of a part, its branch given; false if they stay together.
+  bool halve(std::vector<Item>& items, const Part& part, Part& left, Part& right);
+  void build(std::vector<Item>& items, const Part& part);
 
   std::vector<Box> boxes_;  ///< per triangle
   std::vector<std::size_t> order_;
