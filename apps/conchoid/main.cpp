@@ -3,6 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "command.hpp"
 #include "conchoid/core/context.hpp"
@@ -39,7 +42,16 @@ int carry_out(const Invocation& invocation) {
   return kFailed;
 }
 
+/// Memory that was freed is used again instead of being given back to the system and zeroed anew: meshes come and go.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 int run_program(int argc, char** argv) {
+  keep_freed_memory();
   CLI::App program("Brittle fracture by boundary elements and by prediction. Everything is SI.", "conchoid");
   program.set_version_flag("--version", CONCHOID_VERSION);
   program.footer(

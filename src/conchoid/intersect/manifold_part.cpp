@@ -1,30 +1,49 @@
 #include "conchoid/intersect/manifold_part.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
-#include <unordered_set>
+#include <vector>
 
 #include "conchoid/intersect/self_intersection.hpp"
 
 namespace conchoid {
 namespace {
 
-std::uint64_t directed(NodeId a, NodeId b) {
-  return static_cast<std::uint64_t>(a.index()) << 32 | static_cast<std::uint64_t>(b.index());
-}
+/// Directed edges that triangles have taken, in lists by the node they leave.
+class TakenEdges {
+ public:
+  explicit TakenEdges(const TriMesh& sheet) : begin_(sheet.node_count() + 1, 0), end_(sheet.node_count(), 0) {
+    for (const auto& c : sheet.corners)
+      for (const NodeId n : c)
+        ++begin_[n.index() + 1];
+    for (std::size_t n = 0; n < end_.size(); ++n)
+      begin_[n + 1] += begin_[n];
+    std::copy(begin_.begin(), begin_.end() - 1, end_.begin());
+    to_.resize(begin_.back());
+  }
+  bool contains(NodeId from, NodeId to) const {
+    const auto *first = to_.data() + begin_[from.index()], *last = to_.data() + end_[from.index()];
+    return std::find(first, last, to) != last;
+  }
+  void take(NodeId from, NodeId to) { to_[end_[from.index()]++] = to; }
+
+ private:
+  std::vector<std::uint32_t> begin_, end_;
+  std::vector<NodeId> to_;
+};
 
 }  // namespace
 
 TriMesh manifold_part(const TriMesh& sheet) {
   TriMesh out;
   out.positions = sheet.positions;
-  std::unordered_set<std::uint64_t> taken;
-  taken.reserve(3 * sheet.triangle_count());
+  out.corners.reserve(sheet.triangle_count());
+  TakenEdges taken(sheet);
   for (const auto& c : sheet.corners) {
-    const auto edge = [&](int k) { return directed(c[k], c[(k + 1) % 3]); };
-    if (taken.contains(edge(0)) || taken.contains(edge(1)) || taken.contains(edge(2))) continue;
-    for (int k = 0; k < 3; ++k)
-      taken.insert(edge(k));
+    if (taken.contains(c[0], c[1]) || taken.contains(c[1], c[2]) || taken.contains(c[2], c[0])) continue;
+    for (std::size_t k = 0; k < 3; ++k)
+      taken.take(c[k], c[(k + 1) % 3]);
     out.corners.push_back(c);
   }
   return out;

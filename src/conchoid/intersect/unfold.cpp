@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 
@@ -86,10 +87,14 @@ Vec3 common_direction(const std::vector<Vec3>& vectors) {
 TriMesh unfolded(TriMesh sheet) {
   const Stars stars(sheet);
   for (int round = 0; round < kRounds; ++round) {
+    std::vector<char> is(sheet.node_count(), 0);
+    parallel_for(is.size(), 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        is[i] = !stars.neighbours[NodeId(i)].empty() && is_folded(sheet, stars.triangles[NodeId(i)]);
+    });
     std::vector<NodeId> folded;
-    for (std::size_t i = 0; i < sheet.node_count(); ++i)
-      if (!stars.neighbours[NodeId(i)].empty() && is_folded(sheet, stars.triangles[NodeId(i)]))
-        folded.emplace_back(i);
+    for (std::size_t i = 0; i < is.size(); ++i)
+      if (is[i] != 0) folded.emplace_back(i);
     if (folded.empty()) break;
     // What stays folded in the middle of its neighbours needs them to move as well.
     for (int ring = 0; ring < round / kRoundsPerRing; ++ring) {

@@ -41,7 +41,18 @@ class BoxTree {
   };
   static constexpr std::size_t deepest = 64;  ///< halving leaves no tree deeper than the bits of a size
 
-  std::size_t build(const std::vector<Vec3>& centers, std::size_t begin, std::size_t end);
+  /// A triangle on its way to its place: all that halving asks of it, side by side in memory.
+  struct Item {
+    Box box;
+    Vec3 center;  ///< times three
+    std::size_t triangle;
+  };
+  struct Part {
+    std::size_t branch, begin, end;
+  };
+  /// Halves the items of a part, its branch given; false if they stay together.
+  bool halve(std::vector<Item>& items, const Part& part, Part& left, Part& right);
+  void build(std::vector<Item>& items, const Part& part);
 
   std::vector<Box> boxes_;  ///< per triangle
   std::vector<std::size_t> order_;

@@ -54,6 +54,27 @@ Vec3 common_vertex_double_layer(const TouchingPair& pair, double tolerance);
 Family near_single_layer(const Panel& x, const Panel& y, double tolerance);
 Vec3 near_double_layer(const Panel& x, const Panel& y, double tolerance);
 
+/// Near pairs by cells on the smaller panel and closed forms of the other; false where that takes more than `budget`
+/// points.
+bool cells_single_layer(const Panel& x, const Panel& y, double tolerance, int budget, Family& sum);
+bool cells_double_layer(const Panel& x, const Panel& y, double tolerance, int budget, Vec3& sum);
+
+/// Two panels in parallel planes at the distance |h|, which may be 0. There Δ(R − |h| log(R+|h|)) = 1/R and
+/// ∂_i ∂_j R = δ_ij/R − s_i s_j/R³ in the planes, so that both areas go over into their edges:    docs/theory.md (Q7)
+///   ∫_X∫_Y 1/R = −Σ_e Σ_f (m_e·m_f) ∫_e∫_f (R − |h| log(R+|h|))
+///   ∫_X∫_Y s sᵀ/R³ = I ∫_X∫_Y 1/R + Σ_e Σ_f m_e m_fᵀ ∫_e∫_f R ,   ∫_X∫_Y h s/R³ = −h Σ_e m_e ∫_e∫_Y 1/R
+/// and with ψ = ∫_Y log(R+|h|), whose Laplacian is the solid angle of Y, by Green's second identity
+///   ∫_X∫_Y N_j |h|/R³ = Σ_e ∫_e ( N_j m_e·∇ψ − (m_e·∇N_j) (ψ − |h| ∫_Y 1/R) )
+/// The inner integral is a closed form, the integrand along e without singularities.
+struct ParallelPair {
+  const PanelPotential &x, &y;
+  double diameter;  ///< no two points of the pair are farther apart
+};
+/// How many times larger than the integrals the terms are.
+double parallel_loss(const ParallelPair& pair);
+Family parallel_single_layer(const ParallelPair& pair, double tolerance);
+Vec3 parallel_double_layer(const ParallelPair& pair, double tolerance);
+
 /// Degrees of the triangle rules for X and Y that reach the tolerance; 0: none does.
 struct FarDegrees {
   int x = 0, y = 0;

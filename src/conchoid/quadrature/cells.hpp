@@ -33,11 +33,12 @@ inline double radius_of(const Triangle& t, const Vec3& center) {
   return std::max({(t[0] - center).norm(), (t[1] - center).norm(), (t[2] - center).norm()});
 }
 
-/// ∫ over a triangle of f: cut at the longest edge until a rule suffices. False, and nothing of use in sum, when
+/// ∫ over a triangle: cut at the longest edge until a rule suffices. False, and nothing of use in sum, when
 /// that would take more than `budget` points.
 /// @param degree_of  degree of the rule that does for a cell, 0 when none does
-template <int N, class Degree, class F>
-bool over_cells(const Triangle& whole, double area, const Degree& degree_of, int budget, const F& f,
+/// @param mean_of  mean_of(corners, rule), the rule's mean over a cell
+template <int N, class Degree, class Mean>
+bool over_cells(const Triangle& whole, double area, const Degree& degree_of, int budget, const Mean& mean_of,
                 Eigen::Matrix<double, N, 1>& sum) {
   struct Cell {
     Triangle corners;
@@ -52,11 +53,10 @@ bool over_cells(const Triangle& whole, double area, const Degree& degree_of, int
     const Triangle& t = cell.corners;
     const int degree = degree_of(t);
     if (degree > 0) {
-      const auto points = triangle_rule(degree).points;
-      budget -= static_cast<int>(points.size());
+      const TriangleRule& rule = triangle_rule(degree);
+      budget -= static_cast<int>(rule.points.size());
       if (budget < 0) return false;
-      for (const RulePoint& p : points)
-        sum += (p.weight * cell.area) * f(rule_point(t, p));
+      sum += cell.area * mean_of(t, rule);
       continue;
     }
     if (top + 2 > static_cast<int>(stack.size())) return false;
@@ -71,15 +71,13 @@ bool over_cells(const Triangle& whole, double area, const Degree& degree_of, int
   return true;
 }
 
-/// ∫ over a triangle of f, smooth on the scale of the distance from `source`.
+/// Mean over a triangle of f, point by point.
 template <int N, class F>
-bool over_cells(Layer layer, const Triangle& whole, double area, const PanelPotential& source,
-                double tolerance, int budget, const F& f, Eigen::Matrix<double, N, 1>& sum) {
-  const auto degree_of = [&](const Triangle& t) {
-    const Vec3 center = center_of(t);
-    return far_degree(layer, radius_of(t, center), distance_to_panel(center, source), tolerance);
-  };
-  return over_cells<N>(whole, area, degree_of, budget, f, sum);
+Eigen::Matrix<double, N, 1> rule_mean(const Triangle& t, const TriangleRule& rule, const F& f) {
+  Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
+  for (const RulePoint& p : rule.points)
+    sum += p.weight * f(rule_point(t, p));
+  return sum;
 }
 
 }  // namespace conchoid

@@ -1,20 +1,16 @@
-#include <algorithm>
-#include <cmath>
-
 #include "conchoid/quadrature/cases.hpp"
-#include "conchoid/quadrature/segment_quadrature.hpp"
+#include "conchoid/quadrature/point_quadrature.hpp"
 
 namespace conchoid {
 
 namespace {
 
-/// Parameter on p0p1 of its point closest to the line through q0 and q1: where an integral over that line may
-/// peak.
-double closest_parameter(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
-  const Vec3 u = p1 - p0, v = q1 - q0, w = q0 - p0;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
-  const double det = uu * vv - uv * uv;
-  return det > 0 ? (u.dot(w) * vv - v.dot(w) * uv) / det : -1.0;
+/// From corner 1 to corner 2.
+Points points(const Triangle& t, const Parameters& s) {
+  return points_between(t[1], t[2], s);
+}
+SteepPlaces steep_on_edge(const Triangle& edge_of, const Triangle& other) {
+  return steep_places(edge_of[1], edge_of[2], other[0], other[2]);
 }
 
 }  // namespace
@@ -29,11 +25,11 @@ Family common_edge_single_layer(const TouchingPair& pair, double tolerance) {
   const double rise_x = ax / (x[2] - x[0]).norm(), rise_y = ay / (y[2] - y[0]).norm();
   const double allowed = tolerance * (ax * ay / 4) / pair.diameter;
   const Family along_x = integrate_unit_segment<7>(
-      [&](double s) { return line_single_layer((1 - s) * x[1] + s * x[2], y[0], y[2]); },
-      std::array{closest_parameter(x[1], x[2], y[0], y[2])}, allowed / (ax * rise_y));
+      [&](const Parameters& s, PointValues<7>& v) { line_single_layer(points(x, s), y[0], y[2], v); },
+      steep_on_edge(x, y), allowed / (ax * rise_y));
   const Family along_y = integrate_unit_segment<7>(
-      [&](double s) { return line_single_layer((1 - s) * y[1] + s * y[2], x[0], x[2]); },
-      std::array{closest_parameter(y[1], y[2], x[0], x[2])}, allowed / (ay * rise_x));
+      [&](const Parameters& s, PointValues<7>& v) { line_single_layer(points(y, s), x[0], x[2], v); },
+      steep_on_edge(y, x), allowed / (ay * rise_x));
   return (ax * (of_y.single_layer(x[2]) + rise_y * along_x) +
           ay * (of_x.single_layer(y[2]) + rise_x * along_y)) /
          6;
@@ -52,11 +48,8 @@ Vec3 common_edge_double_layer(const TouchingPair& pair, double tolerance) {
   // Edge x1x2 against Y: components 1, N₂ along y0y2 (N₀ is the rest, N₁ vanishes there).
   using Vec2 = Eigen::Vector2d;
   const Vec2 line_x = integrate_unit_segment<2>(
-      [&](double s) {
-        const LineField field = line_field((1 - s) * x[1] + s * x[2], y[0], y[2]);
-        return Vec2(n.dot(field.total), n.dot(field.toward_b));
-      },
-      std::array{closest_parameter(x[1], x[2], y[0], y[2])}, allowed / (ax * rise_y));
+      [&](const Parameters& s, PointValues<2>& v) { line_field_along(n, points(x, s), y[0], y[2], v); },
+      steep_on_edge(x, y), allowed / (ax * rise_y));
   const Vec3 at_x2 = of_y.double_layer(x[2]);
   const double edge_total = at_x2.sum() + rise_y * line_x[0];
   const double edge_n0 = (at_x2[0] + rise_y * (line_x[0] - line_x[1])) / 2;
@@ -65,11 +58,12 @@ Vec3 common_edge_double_layer(const TouchingPair& pair, double tolerance) {
 
   // X against edge y1y2: components 1, N₂ = parameter along it (N₁ is the rest, N₀ vanishes there).
   const Vec2 line_y = integrate_unit_segment<2>(
-      [&](double s) {
-        const double field = -n.dot(line_field((1 - s) * y[1] + s * y[2], x[0], x[2]).total);
-        return Vec2(field, s * field);
+      [&](const Parameters& s, PointValues<2>& v) {
+        line_field_along(-n, points(y, s), x[0], x[2], v);
+        for (int i = 0; i < Points::most; ++i)
+          v.of[1][i] = s[i] * v.of[0][i];
       },
-      std::array{closest_parameter(y[1], y[2], x[0], x[2])}, allowed / (ay * rise_x));
+      steep_on_edge(y, x), allowed / (ay * rise_x));
   const double at_y2 = n.dot(of_x.gradient(y[2]));
   const double field_total = at_y2 + rise_x * line_y[0];
   const double field_n2 = (at_y2 + rise_x * line_y[1]) / 2;

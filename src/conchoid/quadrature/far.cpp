@@ -10,23 +10,49 @@ namespace conchoid {
 
 namespace {
 
-CONCHOID_WIDE_CLONES void sum_single_layer(const PlacedPoints& x, const PlacedPoints& y,
-                                           double (&result)[7][lanes]) {
-  const auto *y0 = reinterpret_cast<const Lanes*>(y.at[0]), *y1 = reinterpret_cast<const Lanes*>(y.at[1]),
-             *y2 = reinterpret_cast<const Lanes*>(y.at[2]),
-             *wy = reinterpret_cast<const Lanes*>(y.rule->weight);
+/// Corners of a triangle, by coordinate.
+struct Coordinates {
+  double of[3][3];
+  explicit Coordinates(const Triangle& t) {
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        of[k][i] = t[i][k];
+  }
+};
+
+/// The rule's points on it.
+CONCHOID_INTO_CLONES void place(const Coordinates& t, const RuleArrays& rule, double (&at)[3][max_points]) {
+  const auto *l0 = reinterpret_cast<const Lanes*>(rule.l[0]), *l1 = reinterpret_cast<const Lanes*>(rule.l[1]),
+             *l2 = reinterpret_cast<const Lanes*>(rule.l[2]);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < rule.padded / lanes; ++j)
+      reinterpret_cast<Lanes*>(at[k])[j] = l0[j] * t.of[k][0] + l1[j] * t.of[k][1] + l2[j] * t.of[k][2];
+}
+
+CONCHOID_INTO_CLONES void add_lanes(const Lanes& s, double& result) {
+  result = (s[0] + s[1]) + (s[2] + s[3]);
+}
+
+CONCHOID_WIDE_CLONES void sum_single_layer(const Coordinates& x, const RuleArrays& x_rule,
+                                           const Coordinates& y, const RuleArrays& y_rule,
+                                           double (&result)[7]) {
+  alignas(32) double x_at[3][max_points], y_at[3][max_points];
+  place(x, x_rule, x_at);
+  place(y, y_rule, y_at);
+  const auto *y0 = reinterpret_cast<const Lanes*>(y_at[0]), *y1 = reinterpret_cast<const Lanes*>(y_at[1]),
+             *y2 = reinterpret_cast<const Lanes*>(y_at[2]),
+             *wy = reinterpret_cast<const Lanes*>(y_rule.weight);
   Lanes s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{};
-  const int blocks = y.rule->padded / lanes;
-  for (int i = 0; i < x.rule->count; ++i) {
-    const double x0 = x.at[0][i], x1 = x.at[1][i], x2 = x.at[2][i], wx = x.rule->weight[i];
+  const int blocks = y_rule.padded / lanes;
+  for (int i = 0; i < x_rule.count; ++i) {
+    const double x0 = x_at[0][i], x1 = x_at[1][i], x2 = x_at[2][i], wx = x_rule.weight[i];
     for (int j = 0; j < blocks; ++j) {
       const Lanes r0 = x0 - y0[j], r1 = x1 - y1[j], r2 = x2 - y2[j];
       Lanes r = r0 * r0 + r1 * r1 + r2 * r2;
-      for (int l = 0; l < lanes; ++l)
-        r[l] = std::sqrt(r[l]);
-      const Lanes inverse = 1 / r;
-      const Lanes v = wx * wy[j] * inverse;
-      const Lanes c = v * (inverse * inverse);
+      const Lanes inverse_square = 1 / r;  // beside the root, not after it
+      take_root(r);
+      const Lanes v = wx * wy[j] * (r * inverse_square);
+      const Lanes c = v * inverse_square;
       const Lanes c0 = c * r0, c1 = c * r1, c2 = c * r2;
       s0 += v;
       s1 += c0 * r0;
@@ -37,47 +63,48 @@ CONCHOID_WIDE_CLONES void sum_single_layer(const PlacedPoints& x, const PlacedPo
       s6 += c0 * r1;
     }
   }
-  for (int l = 0; l < lanes; ++l) {
-    result[0][l] = s0[l];
-    result[1][l] = s1[l];
-    result[2][l] = s2[l];
-    result[3][l] = s3[l];
-    result[4][l] = s4[l];
-    result[5][l] = s5[l];
-    result[6][l] = s6[l];
-  }
+  const Lanes* sums[7] = {&s0, &s1, &s2, &s3, &s4, &s5, &s6};
+  for (int k = 0; k < 7; ++k)
+    add_lanes(*sums[k], result[k]);
 }
 
-/// @param height  of every point of X above the plane of Y, times the weight
-CONCHOID_WIDE_CLONES void sum_double_layer(const PlacedPoints& x, const double* height, const PlacedPoints& y,
-                                           double (&result)[3][lanes]) {
-  const auto *y0 = reinterpret_cast<const Lanes*>(y.at[0]), *y1 = reinterpret_cast<const Lanes*>(y.at[1]),
-             *y2 = reinterpret_cast<const Lanes*>(y.at[2]),
-             *wy = reinterpret_cast<const Lanes*>(y.rule->weight);
-  const auto *l0 = reinterpret_cast<const Lanes*>(y.rule->l[0]),
-             *l1 = reinterpret_cast<const Lanes*>(y.rule->l[1]),
-             *l2 = reinterpret_cast<const Lanes*>(y.rule->l[2]);
+/// Heights of the points of X above y0, the corner 0 of Y.
+CONCHOID_WIDE_CLONES void sum_double_layer(const Coordinates& x, const RuleArrays& x_rule,
+                                           const Coordinates& y, const RuleArrays& y_rule,
+                                           const double (&normal)[3], double (&result)[3]) {
+  alignas(32) double x_at[3][max_points], y_at[3][max_points], height[max_points];
+  place(x, x_rule, x_at);
+  place(y, y_rule, y_at);
+  for (int j = 0; j < x_rule.padded / lanes; ++j)
+    reinterpret_cast<Lanes*>(height)[j] =
+        reinterpret_cast<const Lanes*>(x_rule.weight)[j] *
+        (normal[0] * (reinterpret_cast<const Lanes*>(x_at[0])[j] - y.of[0][0]) +
+         normal[1] * (reinterpret_cast<const Lanes*>(x_at[1])[j] - y.of[1][0]) +
+         normal[2] * (reinterpret_cast<const Lanes*>(x_at[2])[j] - y.of[2][0]));
+  const auto *y0 = reinterpret_cast<const Lanes*>(y_at[0]), *y1 = reinterpret_cast<const Lanes*>(y_at[1]),
+             *y2 = reinterpret_cast<const Lanes*>(y_at[2]),
+             *wy = reinterpret_cast<const Lanes*>(y_rule.weight);
+  const auto *l0 = reinterpret_cast<const Lanes*>(y_rule.l[0]),
+             *l1 = reinterpret_cast<const Lanes*>(y_rule.l[1]),
+             *l2 = reinterpret_cast<const Lanes*>(y_rule.l[2]);
   Lanes s0{}, s1{}, s2{};
-  const int blocks = y.rule->padded / lanes;
-  for (int i = 0; i < x.rule->count; ++i) {
-    const double x0 = x.at[0][i], x1 = x.at[1][i], x2 = x.at[2][i], h = height[i];
+  const int blocks = y_rule.padded / lanes;
+  for (int i = 0; i < x_rule.count; ++i) {
+    const double x0 = x_at[0][i], x1 = x_at[1][i], x2 = x_at[2][i], h = height[i];
     for (int j = 0; j < blocks; ++j) {
       const Lanes r0 = x0 - y0[j], r1 = x1 - y1[j], r2 = x2 - y2[j];
       Lanes r = r0 * r0 + r1 * r1 + r2 * r2;
-      for (int l = 0; l < lanes; ++l)
-        r[l] = std::sqrt(r[l]);
-      const Lanes inverse = 1 / r;
-      const Lanes k = h * wy[j] * (inverse * inverse) * inverse;
+      const Lanes inverse_square = 1 / r;
+      take_root(r);
+      const Lanes k = h * wy[j] * r * (inverse_square * inverse_square);
       s0 += k * l0[j];
       s1 += k * l1[j];
       s2 += k * l2[j];
     }
   }
-  for (int l = 0; l < lanes; ++l) {
-    result[0][l] = s0[l];
-    result[1][l] = s1[l];
-    result[2][l] = s2[l];
-  }
+  add_lanes(s0, result[0]);
+  add_lanes(s1, result[1]);
+  add_lanes(s2, result[2]);
 }
 
 }  // namespace
@@ -89,26 +116,17 @@ FarDegrees far_degrees(Layer layer, const Panel& x, const Panel& y, double toler
 }
 
 Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees) {
-  alignas(32) double sum[7][lanes] = {};
-  sum_single_layer(PlacedPoints(x.x, degrees.x), PlacedPoints(y.x, degrees.y), sum);
-  const double areas = x.area * y.area;
-  Family result;
-  for (int i = 0; i < 7; ++i)
-    result[i] = areas * sum_lanes(sum[i]);
-  return result;
+  double sum[7];
+  sum_single_layer(Coordinates(x.x), rule_arrays(degrees.x), Coordinates(y.x), rule_arrays(degrees.y), sum);
+  return x.area * y.area * Eigen::Map<const Family>(sum);
 }
 
 Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees) {
-  const PlacedPoints of_x(x.x, degrees.x), of_y(y.x, degrees.y);
-  std::array<double, max_points> height;
-  for (int i = 0; i < of_x.rule->count; ++i) {
-    const Vec3 above(of_x.at[0][i] - y.x[0].x(), of_x.at[1][i] - y.x[0].y(), of_x.at[2][i] - y.x[0].z());
-    height[static_cast<std::size_t>(i)] = of_x.rule->weight[i] * y.normal.dot(above);
-  }
-  alignas(32) double sum[3][lanes] = {};
-  sum_double_layer(of_x, height.data(), of_y, sum);
-  const double areas = x.area * y.area;
-  return {areas * sum_lanes(sum[0]), areas * sum_lanes(sum[1]), areas * sum_lanes(sum[2])};
+  double sum[3];
+  const double normal[3] = {y.normal[0], y.normal[1], y.normal[2]};
+  sum_double_layer(Coordinates(x.x), rule_arrays(degrees.x), Coordinates(y.x), rule_arrays(degrees.y), normal,
+                   sum);
+  return x.area * y.area * Eigen::Map<const Vec3>(sum);
 }
 
 }  // namespace conchoid

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "conchoid/quadrature/lanes.hpp"
 #include "conchoid/quadrature/triangle_rules.hpp"
-
-// The point loops are compiled once more for processors with AVX2. They hold no call that is shared with
-// other code, and contraction is off, so every processor computes the same bits. Sanitizers start too late
-// for the choice at load time.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define CONCHOID_WIDE_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define CONCHOID_WIDE_CLONES
-#endif
 
 /// Rules' points in arrays, for loops over pairs of points.
 namespace conchoid {
 
-constexpr int lanes = 4;
 constexpr int max_points = 36;
 constexpr int max_degree = 12;
 
@@ -62,12 +52,5 @@ struct PlacedPoints {
     }
   }
 };
-
-/// Four numbers at a time; the compiler makes of it what the processor has.
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), may_alias));
-
-inline double sum_lanes(const double (&s)[lanes]) {
-  return (s[0] + s[1]) + (s[2] + s[3]);
-}
 
 }  // namespace conchoid

@@ -28,16 +28,13 @@ constexpr std::array<DegreeBound, 7> bounds = {{{2, 0.033, 0.18},
 
 int far_degree(Layer layer, double radius, double distance, double tolerance, int density) {
   if (!(distance > radius)) return 0;
-  const double ratio = radius / distance;
-  double power = ratio;
+  const double r = radius / distance, r2 = r * r, r3 = r2 * r, r5 = r3 * r2, r6 = r3 * r3;
+  const std::array<double, bounds.size()> power = {r3, r5, r6, r5 * r2, r6 * r3, r6 * r5, r6 * r5 * r2};
   for (; density > 0; --density)
-    power /= ratio;
-  int degree = 0;
-  for (const DegreeBound& bound : bounds) {
-    for (; degree < bound.degree; ++degree)
-      power *= ratio;
-    if (power * (layer == Layer::single ? bound.single : bound.dbl) <= tolerance) return bound.degree;
-  }
+    tolerance *= r;
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    if (power[i] * (layer == Layer::single ? bounds[i].single : bounds[i].dbl) <= tolerance)
+      return bounds[i].degree;
   return 0;
 }
 

@@ -38,7 +38,7 @@ Eigen::Matrix<double, N, 1> integrate_graded(const Triangle& outer, const PanelP
   const int order = static_cast<int>(std::ceil(-0.8 * std::log10(tolerance))) + 3;
   const auto levels = [&](double scale) {
     if (!(scale < 1)) return 0;
-    return scale > std::exp2(-2 * useful) ? static_cast<int>(std::ceil(-std::log2(scale) / 2)) : useful;
+    return static_cast<int>(std::min(std::ceil(-std::log2(std::max(scale, 1e-300)) / 2), double(useful)));
   };
   std::vector<std::vector<GradedNode>> across, along;
   for (int k = 0; k <= useful; ++k) {

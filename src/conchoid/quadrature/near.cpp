@@ -7,7 +7,7 @@
 #include "conchoid/quadrature/cells.hpp"
 #include "conchoid/quadrature/far_rules.hpp"
 #include "conchoid/quadrature/graded.hpp"
-#include "conchoid/quadrature/segment_quadrature.hpp"
+#include "conchoid/quadrature/point_quadrature.hpp"
 #include "conchoid/quadrature/triangle_rules.hpp"
 
 namespace conchoid {
@@ -37,6 +37,8 @@ struct NearPair {
         diameter((px.center - py.center).norm() + px.radius + py.radius),
         of_x(x, normal_x, rounding),
         of_y(y, normal_y, rounding) {}
+
+  ParallelPair as_parallel() const { return {of_x, of_y, diameter}; }
 };
 
 NearPair near_pair(const Panel& x, const Panel& y) {
@@ -45,6 +47,33 @@ NearPair near_pair(const Panel& x, const Panel& y) {
 
 double largest_height(const Triangle& t, const PanelPotential& plane) {
   return std::max({std::abs(plane.height(t[0])), std::abs(plane.height(t[1])), std::abs(plane.height(t[2]))});
+}
+
+/// Heights that change no integral by as much as the tolerance.
+double negligible(const NearPair& pair, double tolerance) {
+  return std::max(pair.noise, 1e-3 * tolerance * std::min(pair.radius_x, pair.radius_y));
+}
+
+struct Heights {
+  double low, high;
+};
+Heights heights(const Triangle& t, const PanelPotential& plane) {
+  const double a = plane.height(t[0]), b = plane.height(t[1]), c = plane.height(t[2]);
+  return {std::min({a, b, c}), std::max({a, b, c})};
+}
+
+/// In parallel planes, and not so thin that the terms at the edges cancel: of the digits at stake by their size a
+/// hundredth is lost (measured).
+bool parallel(const NearPair& pair, double tolerance) {
+  const Heights of_x = heights(pair.x, pair.of_y);
+  return of_x.high - of_x.low <= negligible(pair, tolerance) &&
+         0.1 * epsilon * parallel_loss(pair.as_parallel()) <= tolerance;
+}
+
+/// X is on one side of the plane of Y, by more than rounding.
+bool on_one_side(const NearPair& pair) {
+  const Heights of_x = heights(pair.x, pair.of_y);
+  return of_x.low > pair.noise || of_x.high < -pair.noise;
 }
 
 /// Outward distances of a panel's edges from c.
@@ -113,7 +142,8 @@ bool steep(const NearPair& pair) {
   return cross(pair.normal_x, pair.normal_y).squaredNorm() > 1e-2;
 }
 
-/// Σ_e d_e ∫_e f over the edges of one panel, broken where they pass through the plane of the other.
+/// Σ_e d_e ∫_e f over the edges of one panel, f a potential of the other.
+/// @param f  f(points, values), all of them at once
 template <int N, class F>
 Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelPotential& other,
                                        const Vec3& c, double allowed, double rounding, const F& f) {
@@ -121,15 +151,20 @@ Eigen::Matrix<double, N, 1> over_edges(const PanelPotential& panel, const PanelP
   Eigen::Matrix<double, N, 1> sum = Eigen::Matrix<double, N, 1>::Zero();
   for (int i = 0; i < 3; ++i) {
     const Vec3 &a = panel.corner(i), &b = panel.corner((i + 1) % 3);
-    const double ha = other.height(a), hb = other.height(b);
-    const double crossing = (ha < 0) != (hb < 0) ? ha / (ha - hb) : -1.0;
     const double factor = d[i] * panel.edge_length(i);
     if (factor == 0) continue;
-    const auto on_edge = [&](double s) { return f((1 - s) * a + s * b); };
-    sum += factor *
-           integrate_unit_segment<N>(on_edge, std::array{crossing}, allowed / std::abs(factor), rounding);
+    const auto on_edge = [&](const Parameters& s, PointValues<N>& v) { f(points_between(a, b, s), v); };
+    sum += factor * integrate_unit_segment<N>(on_edge, steep_places(a, b, other), allowed / std::abs(factor),
+                                              rounding);
   }
   return sum;
+}
+
+/// X lies in the plane of Y, up to rounding.
+bool in_plane_of(const Panel& y, const Panel& x) {
+  const double noise = plane_noise(x, y);
+  return std::all_of(x.x.begin(), x.x.end(),
+                     [&](const Vec3& c) { return std::abs(y.normal.dot(c - y.x[0])) <= noise; });
 }
 
 constexpr int cheap_budget = 150;    // points: about the price of the edge form
@@ -138,73 +173,73 @@ constexpr int costly_budget = 4000;  // points: about the price of the graded fo
 }  // namespace
 
 Family near_single_layer(const Panel& px, const Panel& py, double tolerance) {
+  Family sum;
+  if (cells_single_layer(px, py, tolerance, cheap_budget, sum)) return sum;
   const NearPair pair = near_pair(px, py);
-  const bool outer_x = pair.radius_x <= pair.radius_y;
-  const PanelPotential& inner = outer_x ? pair.of_y : pair.of_x;
-  const Triangle& outer = outer_x ? pair.x : pair.y;
-  const double outer_area = outer_x ? pair.area_x : pair.area_y;
-  const auto potential = [&](const Vec3& p) { return inner.single_layer(p); };
+  const PointPotentials around_x(pair.of_x), around_y(pair.of_y);
   const auto about = [&](const Vec3& c) {
     const double allowed = tolerance * pair.area_x * pair.area_y / pair.diameter;
     const double rounding = 50 * epsilon;
-    const auto of_x = [&](const Vec3& p) { return pair.of_x.single_layer(p); };
-    const auto of_y = [&](const Vec3& p) { return pair.of_y.single_layer(p); };
-    return Family((over_edges<7>(pair.of_x, pair.of_y, c, allowed, rounding, of_y) +
-                   over_edges<7>(pair.of_y, pair.of_x, c, allowed, rounding, of_x)) /
+    const auto of_x = [&](const Points& p, PointValues<7>& v) { around_x.single_layer(p, v); };
+    const auto of_y = [&](const Points& p, PointValues<7>& v) { around_y.single_layer(p, v); };
+    return Family((around_y.in_space(over_edges<7>(pair.of_x, pair.of_y, c, allowed, rounding, of_y)) +
+                   around_x.in_space(over_edges<7>(pair.of_y, pair.of_x, c, allowed, rounding, of_x))) /
                   3);
   };
-  Family sum;
-  if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, cheap_budget, potential, sum))
-    return sum;
-  const double gap = std::max(pair.noise, 1e-3 * tolerance * std::min(pair.radius_x, pair.radius_y));
-  if (std::max(largest_height(pair.x, pair.of_y), largest_height(pair.y, pair.of_x)) <= gap)
+  if (parallel(pair, tolerance)) return parallel_single_layer(pair.as_parallel(), tolerance);
+  if (std::max(largest_height(pair.x, pair.of_y), largest_height(pair.y, pair.of_x)) <=
+      negligible(pair, tolerance))
     return about(Vec3::Zero());
   const std::optional<Apex> apex = best_apex(pair, false);
   if (apex && accurate(*apex, tolerance)) return about(apex->c);
-  if (over_cells<7>(Layer::single, outer, outer_area, inner, tolerance, costly_budget, potential, sum))
-    return sum;
-  return apex && steep(pair) ? about(apex->c) : integrate_graded<7>(outer, inner, tolerance, potential);
+  if (cells_single_layer(px, py, tolerance, costly_budget, sum)) return sum;
+  if (apex && steep(pair)) return about(apex->c);
+  const bool outer_x = pair.radius_x <= pair.radius_y;
+  const PanelPotential& inner = outer_x ? pair.of_y : pair.of_x;
+  return integrate_graded<7>(outer_x ? pair.x : pair.y, inner, tolerance,
+                             [&](const Vec3& p) { return inner.single_layer(p); });
 }
 
 Vec3 near_double_layer(const Panel& px, const Panel& py, double tolerance) {
+  if (in_plane_of(py, px)) return Vec3::Zero();
+  Vec3 sum;
+  if (cells_double_layer(px, py, tolerance, cheap_budget, sum)) return sum;
   const NearPair pair = near_pair(px, py);
-  if (coplanar(pair.x, pair.of_y, pair.noise)) return Vec3::Zero();
-  const auto potential = [&](const Vec3& p) { return pair.of_y.double_layer(p); };
-  // Cells over the smaller panel: potentials of Y over X, or the field of X over Y.
-  const auto cells = [&](int budget, Vec3& sum) {
-    const double cell_tolerance = tolerance / 4;
-    if (pair.radius_x <= pair.radius_y) {
-      return over_cells<3>(Layer::dbl, pair.x, pair.area_x, pair.of_y, cell_tolerance, budget, potential,
-                           sum);
-    }
-    const auto field = [&](const Vec3& p) {
-      return Vec3(pair.normal_y.dot(pair.of_x.gradient(p)) * pair.of_y.corner_functions(p));
-    };
-    return over_cells<3>(Layer::dbl, pair.y, pair.area_y, pair.of_x, cell_tolerance, budget, field, sum);
-  };
+  const PointPotentials around_x(pair.of_x), around_y(pair.of_y);
   // N_j = N_j(c) + a part that vanishes at c: degree −2 (divisor 2) and −1 (divisor 3).
   const auto about = [&](const Vec3& c) {
     const double allowed = tolerance * pair.area_x * pair.area_y / (pair.diameter * pair.diameter);
     const Vec3 at_c = pair.of_y.corner_functions(c);
     // Heights are rounded relative to the length of Y, corner functions relative to its thickness.
     const double rounding = 50 * epsilon * pair.radius_y * pair.radius_y / pair.area_y;
-    const auto of_y = [&](const Vec3& p) {
-      const Vec3 v = pair.of_y.double_layer(p);
-      return Vec3(v / 3 + (v.sum() / 6) * at_c);
+    const auto of_y = [&](const Points& p, PointValues<3>& v) {
+      around_y.double_layer(p, v);
+      for (int i = 0; i < p.padded; ++i) {
+        const double all = (v.of[0][i] + v.of[1][i] + v.of[2][i]) / 6;
+        for (int k = 0; k < 3; ++k)
+          v.of[k][i] = v.of[k][i] / 3 + all * at_c[k];
+      }
     };
-    const auto of_x = [&](const Vec3& p) {
-      const double field = pair.normal_y.dot(pair.of_x.gradient(p));
-      return Vec3(field * (pair.of_y.corner_functions(p) / 3 + at_c / 6));
+    const auto of_x = [&](const Points& p, PointValues<3>& v) {
+      PointValues<1> field;
+      around_x.gradient_along(pair.normal_y, p, field);
+      for (int i = 0; i < p.padded; ++i) {
+        const Vec3 N = pair.of_y.corner_functions({p.at[0][i], p.at[1][i], p.at[2][i]});
+        for (int k = 0; k < 3; ++k)
+          v.of[k][i] = field.of[0][i] * (N[k] / 3 + at_c[k] / 6);
+      }
     };
     return Vec3(over_edges<3>(pair.of_x, pair.of_y, c, allowed, rounding, of_y) +
                 over_edges<3>(pair.of_y, pair.of_x, c, allowed, rounding, of_x));
   };
-  Vec3 sum;
-  if (cells(cheap_budget, sum)) return sum;
+  if (parallel(pair, tolerance) && on_one_side(pair))
+    return parallel_double_layer(pair.as_parallel(), tolerance);
   const std::optional<Apex> apex = best_apex(pair, true);
   if (apex && accurate(*apex, tolerance)) return about(apex->c);
-  if (cells(costly_budget, sum)) return sum;
-  return apex && steep(pair) ? about(apex->c) : integrate_graded<3>(pair.x, pair.of_y, tolerance, potential);
+  if (cells_double_layer(px, py, tolerance, costly_budget, sum)) return sum;
+  if (apex && steep(pair)) return about(apex->c);
+  return integrate_graded<3>(pair.x, pair.of_y, tolerance,
+                             [&](const Vec3& p) { return pair.of_y.double_layer(p); });
 }
 
 }  // namespace conchoid

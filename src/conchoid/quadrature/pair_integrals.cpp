@@ -56,7 +56,10 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
       break;
   }
   const FarDegrees degrees = far_degrees(Layer::single, x, y, tolerance);
-  return degrees.enough() ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
+  // From there on a rule on one panel with the closed form of the other is cheaper than rules on both.
+  constexpr int costly = 10;
+  const bool far = degrees.enough() && (degrees.x < costly || degrees.y < costly);
+  return far ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
 }
 
 Vec3 touching_double_layer(const TouchingPair& pair, int shared, double tolerance) {

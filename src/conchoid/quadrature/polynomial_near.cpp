@@ -34,8 +34,11 @@ Moments over_panel(Layer layer, int density, const Panel& outer, const PanelPote
     const Vec3 center = center_of(t);
     return far_degree(layer, radius_of(t, center), distance_to_steep(t, center, inner), tolerance, density);
   };
+  const auto mean_of = [&](const Triangle& t, const TriangleRule& rule) {
+    return rule_mean<N>(t, rule, flat);
+  };
   Flat sum;
-  if (!over_cells<N>(outer.x, outer.area, degree_of, most_points, flat, sum))
+  if (!over_cells<N>(outer.x, outer.area, degree_of, most_points, mean_of, sum))
     sum = integrate_graded<N>(outer.x, inner, tolerance, flat);
   return Eigen::Map<const Moments>(sum.data());
 }

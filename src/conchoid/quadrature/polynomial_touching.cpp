@@ -1,5 +1,5 @@
+#include "conchoid/quadrature/point_quadrature.hpp"
 #include "conchoid/quadrature/polynomial_cases.hpp"
-#include "conchoid/quadrature/segment_quadrature.hpp"
 
 namespace conchoid {
 
@@ -7,12 +7,6 @@ namespace {
 
 Vec3 point(const Triangle& t, double s) {
   return (1 - s) * t[1] + s * t[2];
-}
-
-/// Where the edge from corner 1 to corner 2 passes through the plane of the other panel, or outside (0, 1).
-double crossing(const Triangle& edge_of, const PanelPotential& other) {
-  const double h1 = other.height(edge_of[1]), h2 = other.height(edge_of[2]);
-  return (h1 < 0) != (h2 < 0) ? h1 / (h1 - h2) : -1.0;
 }
 
 constexpr std::array<int, 6> degree = {0, 1, 1, 2, 2, 2};  // of the monomials, about corner 0
@@ -23,12 +17,16 @@ using Flat = Eigen::Matrix<double, Moments::SizeAtCompileTime, 1>;
 /// ∫ over the edge opposite corner 0 of `edge_of`.
 template <class Moments, class F>
 Moments over_opposite_edge(const Triangle& edge_of, const PanelPotential& other, double allowed, const F& f) {
-  const auto flat = [&](double s) {
-    const Moments m = f(s);
-    return Flat<Moments>(Eigen::Map<const Flat<Moments>>(m.data()));
+  constexpr int N = Moments::SizeAtCompileTime;
+  const auto flat = [&](const Parameters& s, PointValues<N>& v) {
+    for (int i = 0; i < Points::most; ++i) {
+      const Moments m = f(s[i]);
+      for (int k = 0; k < N; ++k)
+        v.of[k][i] = m.data()[k];
+    }
   };
   const Flat<Moments> sum =
-      integrate_unit_segment<Moments::SizeAtCompileTime>(flat, std::array{crossing(edge_of, other)}, allowed);
+      integrate_unit_segment<N>(flat, steep_places(edge_of[1], edge_of[2], other), allowed);
   return Eigen::Map<const Moments>(sum.data());
 }
 

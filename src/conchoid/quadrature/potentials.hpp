@@ -51,8 +51,11 @@ class PanelPotential {
   double height(const Vec3& x) const;                     ///< n·(x − Y)
   const Vec3& corner(int i) const { return corner_[i]; }  ///< edge i runs from corner i to i+1
   const Vec3& edge_normal(int i) const { return outward_[i]; }
+  const Vec3& edge_direction(int i) const { return along_[i]; }
+  const Vec3& normal() const { return normal_; }
   double edge_length(int i) const { return length_[i]; }
   double double_area() const { return double_area_; }
+  double noise() const { return noise_; }
 
  private:
   /// What every potential needs of one point.

@@ -57,17 +57,15 @@ KronrodInterval<N> kronrod_interval(const F& f, double a, double b, double round
   return {a, b, half * kronrod, done ? 0.0 : half * error};
 }
 
-/// ∫_a^b f(t) dt of a vector-valued function: the (7, 15) Gauss–Kronrod pair, the interval with the largest
-/// difference halved until the differences add up to less than `tolerance` (absolute, in every component).
-/// The Kronrod values are far better than that where f is smooth. Kinks, jumps and logarithms inside cost
-/// bisections, not accuracy; what the caller knows of them belongs at an end.
-template <int N, class F>
-Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, double tolerance,
-                                              double rounding = 50 * std::numeric_limits<double>::epsilon()) {
+/// ∫_a^b of a vector-valued function by a rule with an estimate of its error: the interval with the largest
+/// error halved until the errors add up to less than `tolerance` (absolute, in every component).
+/// @param rule  rule(a, b), the KronrodInterval of an interval
+template <int N, class Rule>
+Eigen::Matrix<double, N, 1> integrate_by(const Rule& rule, double a, double b, double tolerance) {
   constexpr int max_intervals = 240;
   std::array<KronrodInterval<N>, max_intervals> intervals;
   int count = 0;
-  intervals[count++] = kronrod_interval<N>(f, a, b, rounding);
+  intervals[count++] = rule(a, b);
   while (count < max_intervals) {
     int worst = 0;
     double error = 0;
@@ -77,13 +75,23 @@ Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, do
     }
     if (!(error > tolerance)) break;
     const double from = intervals[worst].a, to = intervals[worst].b, mid = 0.5 * (from + to);
-    intervals[worst] = kronrod_interval<N>(f, from, mid, rounding);
-    intervals[count++] = kronrod_interval<N>(f, mid, to, rounding);
+    intervals[worst] = rule(from, mid);
+    intervals[count++] = rule(mid, to);
   }
   Eigen::Matrix<double, N, 1> sum = intervals[0].value;
   for (int i = 1; i < count; ++i)
     sum += intervals[i].value;
   return sum;
+}
+
+/// ∫_a^b f(t) dt of a vector-valued function: the (7, 15) Gauss–Kronrod pair. The Kronrod values are far better
+/// than their difference where f is smooth. Kinks, jumps and logarithms inside cost bisections, not accuracy;
+/// what the caller knows of them belongs at an end.
+template <int N, class F>
+Eigen::Matrix<double, N, 1> integrate_segment(const F& f, double a, double b, double tolerance,
+                                              double rounding = 50 * std::numeric_limits<double>::epsilon()) {
+  const auto rule = [&](double from, double to) { return kronrod_interval<N>(f, from, to, rounding); };
+  return integrate_by<N>(rule, a, b, tolerance);
 }
 
 /// The same over [0, 1], broken at the points of `breaks` that lie inside (any order, at most a few).

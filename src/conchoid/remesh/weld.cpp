@@ -104,6 +104,7 @@ std::string WeldReport::text() const {
 AttributedMesh welded_if_it_helps(AttributedMesh surface, WeldReport& report) {
   report = {};
   const std::vector<MeshDefect> defects = find_defects(surface.mesh, 1);
+  report.bounds_body = defects.empty();
   if (defects.empty() || std::any_of(defects.begin(), defects.end(), [](const MeshDefect& d) {
         return d.kind == DefectKind::index_out_of_range || d.kind == DefectKind::not_finite ||
                d.kind == DefectKind::empty;
@@ -116,6 +117,7 @@ AttributedMesh welded_if_it_helps(AttributedMesh surface, WeldReport& report) {
   drop_unused_nodes(mesh);
   if (!find_defects(mesh, 1).empty()) return surface;
   report = weld;
+  report.bounds_body = true;
   return {std::move(mesh), attributes_of(surface.attributes, kept)};
 }
 

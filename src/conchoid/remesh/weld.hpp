@@ -14,6 +14,7 @@ struct WeldReport {
   std::size_t nodes = 0;      ///< that became another one
   std::size_t triangles = 0;  ///< dropped, because two of their nodes became one
   double farthest = 0;        ///< largest distance of a node from the one it became [m]
+  bool bounds_body = false;   ///< what came out was looked at, and has no defects (welded_if_it_helps)
 
   /// "8 nodes were welded to others at most 2e-7 away, …"
   std::string text() const;
@@ -28,7 +29,7 @@ TriMesh welded(const TriMesh& mesh, WeldReport& report, std::vector<TriId>* kept
 
 /// A surface as a scene takes it from a file: as it is if it bounds a body; welded, without the nodes that are
 /// left over, if that alone makes it bound one, which the caller should say; as it is, bad, otherwise.
-/// @param report  all zero unless it was welded
+/// @param report  no nodes unless it was welded
 AttributedMesh welded_if_it_helps(AttributedMesh surface, WeldReport& report);
 
 }  // namespace conchoid

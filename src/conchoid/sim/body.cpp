@@ -52,7 +52,7 @@ Body body_from_file(const std::filesystem::path& path, const BodySettings& setti
   WeldReport weld;
   AttributedMesh read = welded_if_it_helps(read_surface(path), weld);
   try {
-    require_valid_body(read.mesh, path.string());
+    if (!weld.bounds_body) require_valid_body(read.mesh, path.string());
   } catch (const InputError& error) {
     throw InputError(std::string(error.what()) + "\n  conchoid check " + path.string() +
                      " --repair --out FIXED.ply mends what can be mended");

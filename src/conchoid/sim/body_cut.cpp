@@ -114,8 +114,9 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
     std::vector<Fragment> best;
     TriMesh best_surface;
     int clean_ways = 0;
+    const LigamentSurfaces surfaces(ligament, all);
     for (const LigamentOverlap& overlap : kOverlaps) {
-      TriMesh surface = unfolded_part(ligament_surface(ligament, all, overlap));
+      TriMesh surface = unfolded_part(surfaces.with(overlap));
       std::vector<Fragment> parts =
           parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
       if (parts.size() < 2 || parts[1].volume < kLeastShareOfPart * ligament.smaller_part) continue;

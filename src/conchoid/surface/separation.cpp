@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -15,8 +16,8 @@ namespace {
 /// Edge of a face, with its direction there.
 struct HalfEdge {
   Edge edge;
-  std::size_t face;
-  int corner;
+  std::uint32_t face;
+  std::uint16_t corner;
   bool along;  ///< from edge.a to edge.b
 };
 
@@ -61,7 +62,8 @@ class Gluing {
       if (!shells_.present[f]) continue;
       const auto& c = shells_.corners[f];
       for (int k = 0; k < 3; ++k)
-        halves.push_back({Edge(c[k], c[(k + 1) % 3]), f, k, c[k] < c[(k + 1) % 3]});
+        halves.push_back({Edge(c[k], c[(k + 1) % 3]), static_cast<std::uint32_t>(f),
+                          static_cast<std::uint16_t>(k), c[k] < c[(k + 1) % 3]});
     }
     sort_by_edge(halves, cut_.positions.size(), [](const HalfEdge& h) { return h.edge; });  // then by face
     for (std::size_t begin = 0; begin < halves.size();) {
@@ -75,8 +77,9 @@ class Gluing {
 
   /// Same edge on the other side of a sheet face: corner order there is 0, 2, 1.
   HalfEdge turned(const HalfEdge& h) const {
-    constexpr int corner[3] = {2, 1, 0};  // edge (k, k+1) is edge (corner[k], corner[k]+1) of the turned face
-    return {h.edge, shells_.opposite(h.face), corner[h.corner], !h.along};
+    constexpr std::uint16_t corner[3] = {
+        2, 1, 0};  // edge (k, k+1) is edge (corner[k], corner[k]+1) of the turned face
+    return {h.edge, static_cast<std::uint32_t>(shells_.opposite(h.face)), corner[h.corner], !h.along};
   }
 
   void glue_edge(const HalfEdge* h, std::size_t n) {
@@ -109,8 +112,9 @@ class Gluing {
 
   void glue(const HalfEdge& x, const HalfEdge& y) {
     faces_.join(x.face, y.face);
-    corners_.join(3 * x.face + x.corner, 3 * y.face + (y.corner + 1) % 3);
-    corners_.join(3 * x.face + (x.corner + 1) % 3, 3 * y.face + y.corner);
+    const std::size_t of_x = 3 * std::size_t{x.face}, of_y = 3 * std::size_t{y.face};
+    corners_.join(of_x + x.corner, of_y + (y.corner + 1) % 3);
+    corners_.join(of_x + (x.corner + 1) % 3, of_y + y.corner);
   }
 
   void number_vertices() {

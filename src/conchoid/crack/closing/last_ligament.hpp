@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "conchoid/crack/closing/minimal_cut.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 
@@ -37,5 +38,19 @@ struct LigamentOverlap {
 /// lies between two parts of one piece is not meant to be cut.
 TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets,
                          const LigamentOverlap& overlap = {});
+
+/// The same for several overlaps: what they have in common is found once.
+class LigamentSurfaces {
+ public:
+  /// Both arguments have to stay.
+  LigamentSurfaces(const LastLigament& ligament, const TriMesh& sheets);
+  TriMesh with(const LigamentOverlap& overlap) const;
+
+ private:
+  const LastLigament& ligament_;
+  const TriMesh& sheets_;
+  BoxTree tree_;
+  std::vector<std::int8_t> side_;  ///< per cell, also of those around the body
+};
 
 }  // namespace conchoid

@@ -34,15 +34,64 @@ std::optional<double> passes(const Vec3& a, const Vec3& b, const Triangle& x) {
   return s;
 }
 
+// Visits the neighbours of a cell, with weights that fall with the distance.
+template <class Visit>
+void for_neighbours(const CellGrid& grid, std::size_t cell, const Visit& visit) {
+  const auto at = grid.place(cell);
+  const auto in_grid = [&](const std::array<int, 3>& to) {
+    for (int a = 0; a < 3; ++a)
+      if (to[a] < 0 || to[a] >= grid.count()[a]) return false;
+    return true;
+  };
+  for (int i = -1; i <= 1; ++i)
+    for (int j = -1; j <= 1; ++j)
+      for (int k = -1; k <= 1; ++k) {
+        const std::array<int, 3> to{at[0] + i, at[1] + j, at[2] + k};
+        if ((i != 0 || j != 0 || k != 0) && in_grid(to))
+          visit(grid.cell(to[0], to[1], to[2]), 4 - std::abs(i) - std::abs(j) - std::abs(k));
+      }
+}
+
+// Cells with a side of their own, or with a neighbour that has one: the cells are spread along one axis after the other.
+std::vector<std::uint8_t> beside_known(const CellGrid& grid, const std::vector<std::int8_t>& side) {
+  const auto& count = grid.count();
+  const auto row = static_cast<std::size_t>(count[2]), plane = row * static_cast<std::size_t>(count[1]);
+  std::vector<std::uint8_t> known(side.size()), spread(side.size());
+  for (std::size_t c = 0; c < side.size(); ++c)
+    known[c] = side[c] != 0;
+  const auto along = [&](std::size_t step, std::size_t length) {  // lines of `length` cells, `step` apart
+    for (std::size_t block = 0; block < side.size(); block += step * length)
+      for (std::size_t i = 0; i < length; ++i)
+        for (std::size_t c = block + i * step; c < block + (i + 1) * step; ++c)
+          spread[c] = known[c] | (i > 0 ? known[c - step] : 0) | (i + 1 < length ? known[c + step] : 0);
+    known.swap(spread);
+  };
+  along(1, row);
+  along(row, static_cast<std::size_t>(count[1]));
+  along(plane, static_cast<std::size_t>(count[0]));
+  return known;
+}
+
+// Sides of the cells around the body: as those next to them inside.
+std::vector<std::int8_t> spread_outside(const CellGrid& grid, std::vector<std::int8_t> side) {
+  for (int round = 0; round < kCellsOutside; ++round) {
+    const std::vector<std::int8_t> before = side;
+    const std::vector<std::uint8_t> beside = beside_known(grid, before);
+    for (std::size_t c = 0; c < grid.cells(); ++c) {
+      if (before[c] != 0 || beside[c] == 0) continue;
+      int sum = 0;
+      for_neighbours(grid, c, [&](std::size_t d, int weight) { sum += weight * before[d]; });
+      side[c] = static_cast<std::int8_t>(sum >= 0 ? 1 : -1);
+    }
+  }
+  return side;
+}
+
 class SurfaceMaker {
  public:
-  SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const LigamentOverlap& overlap)
-      : grid_(*ligament.grid),
-        overlap_(overlap),
-        sheets_(sheets),
-        tree_(sheets),
-        side_(ligament.partition.side) {
-    spread_outside();
+  SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const BoxTree& tree,
+               const std::vector<std::int8_t>& side, const LigamentOverlap& overlap)
+      : grid_(*ligament.grid), overlap_(overlap), sheets_(sheets), tree_(tree), side_(side) {
     near_.assign(grid_.cells(), false);
     for (const Vec3& x : ligament.faces)
       grid_.mark_near(grid_.place_of(x), overlap_.cells, near_);
@@ -60,41 +109,6 @@ class SurfaceMaker {
   }
 
  private:
-  // Sides of the cells around the body: as those next to them inside.
-  void spread_outside() {
-    for (int round = 0; round < kCellsOutside; ++round) {
-      const std::vector<std::int8_t> before = side_;
-      for (std::size_t c = 0; c < grid_.cells(); ++c) {
-        if (before[c] != 0) continue;
-        int sum = 0;
-        bool any = false;
-        for_neighbours(c, [&](std::size_t d, int weight) {
-          sum += weight * before[d];
-          any = any || before[d] != 0;
-        });
-        if (any) side_[c] = static_cast<std::int8_t>(sum >= 0 ? 1 : -1);
-      }
-    }
-  }
-
-  template <class Visit>
-  void for_neighbours(std::size_t cell, const Visit& visit) const {
-    const auto at = grid_.place(cell);
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k) {
-          const std::array<int, 3> to{at[0] + i, at[1] + j, at[2] + k};
-          if ((i != 0 || j != 0 || k != 0) && in_grid(to))
-            visit(grid_.cell(to[0], to[1], to[2]), 4 - std::abs(i) - std::abs(j) - std::abs(k));
-        }
-  }
-
-  bool in_grid(const std::array<int, 3>& at) const {
-    for (int a = 0; a < 3; ++a)
-      if (at[a] < 0 || at[a] >= grid_.count()[a]) return false;
-    return true;
-  }
-
   // Marching tetrahedra between the two sides, from the lower to the upper.
   void march() {
     for (std::size_t c = 0; c < grid_.cells(); ++c) {
@@ -230,8 +244,8 @@ class SurfaceMaker {
   const CellGrid& grid_;
   LigamentOverlap overlap_;
   const TriMesh& sheets_;
-  BoxTree tree_;
-  std::vector<std::int8_t> side_;
+  const BoxTree& tree_;
+  const std::vector<std::int8_t>& side_;
   std::vector<bool> near_, on_rim_;
   std::vector<Vec3> across_;  // normal of the crack a node lies beside; zero for the others
   std::map<Link, NodeId> nodes_;
@@ -243,7 +257,17 @@ class SurfaceMaker {
 
 TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets,
                          const LigamentOverlap& overlap) {
-  return SurfaceMaker(ligament, sheets, overlap).run();
+  return LigamentSurfaces(ligament, sheets).with(overlap);
+}
+
+LigamentSurfaces::LigamentSurfaces(const LastLigament& ligament, const TriMesh& sheets)
+    : ligament_(ligament),
+      sheets_(sheets),
+      tree_(sheets),
+      side_(spread_outside(*ligament.grid, ligament.partition.side)) {}
+
+TriMesh LigamentSurfaces::with(const LigamentOverlap& overlap) const {
+  return SurfaceMaker(ligament_, sheets_, tree_, side_, overlap).run();
 }
 
 }  // namespace conchoid

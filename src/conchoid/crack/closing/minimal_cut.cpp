@@ -64,32 +64,40 @@ struct Network {
 
 class NetworkBuilder {
  public:
-  explicit NetworkBuilder(std::size_t vertices) : out_(vertices) {}
+  explicit NetworkBuilder(std::size_t vertices) : first_(vertices + 1, 0) {}
   void connect(std::int32_t a, std::int32_t b, int there, int back) {
-    out_[a].push_back({b, there, out_[b].size()});
-    out_[b].push_back({a, back, out_[a].size() - 1});
+    links_.push_back({a, b, there, back});
+    ++first_[static_cast<std::size_t>(a) + 1];
+    ++first_[static_cast<std::size_t>(b) + 1];
   }
-  Network build() const {
-    std::vector<std::size_t> first(out_.size() + 1, 0);
-    for (std::size_t v = 0; v < out_.size(); ++v)
-      first[v + 1] = first[v] + out_[v].size();
+  /// Once. The arcs of a vertex in the order in which they were made.
+  Network build() {
+    for (std::size_t v = 1; v < first_.size(); ++v)
+      first_[v] += first_[v - 1];
     Network network;
-    for (std::size_t v = 0; v < out_.size(); ++v)
-      for (const Out& o : out_[v]) {
-        network.arcs.emplace_back(static_cast<std::int32_t>(v), o.to);
-        network.capacity.push_back(o.capacity);
-        network.opposite.push_back(first[o.to] + o.opposite);
-      }
+    network.arcs.resize(first_.back());
+    network.capacity.resize(first_.back());
+    network.opposite.resize(first_.back());
+    for (const Link& l : links_) {
+      const std::size_t there = first_[static_cast<std::size_t>(l.a)]++,
+                        back = first_[static_cast<std::size_t>(l.b)]++;
+      network.arcs[there] = {l.a, l.b};
+      network.arcs[back] = {l.b, l.a};
+      network.capacity[there] = l.there;
+      network.capacity[back] = l.back;
+      network.opposite[there] = back;
+      network.opposite[back] = there;
+    }
     return network;
   }
 
  private:
-  struct Out {
-    std::int32_t to;
-    int capacity;
-    std::size_t opposite;  // among those of `to`
+  struct Link {
+    std::int32_t a, b;
+    int there, back;
   };
-  std::vector<std::vector<Out>> out_;
+  std::vector<Link> links_;
+  std::vector<std::size_t> first_;  // arc of each vertex
 };
 
 }  // namespace
