@@ -3,6 +3,9 @@
 namespace conchoid {
 namespace {
 
+/// Altitude over longest edge below which round-off decides whether a piece has an area.
+constexpr double kFlat = 1e-9;
+
 /// Number of open ends (0 or 2) if the pieces form one fan around n, else −1.
 int open_ends(NodeId n, const std::vector<Corners>& pieces) {
   std::vector<std::pair<NodeId, NodeId>> link;
@@ -65,6 +68,7 @@ double CutEditor::quality(const Corners& c, const CutChange& change, const Vec3&
       std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
   if (longest == 0) return 0;
   const double q = area.norm() / longest;
+  if (q < kFlat) return 0;
   return area.dot(normal) > 0.5 * area.norm() * normal.norm() ? q : -q;
 }
 

@@ -21,6 +21,7 @@ constexpr double kNothing = 1e-9;  // below it a piece has no area
 // from it: K at the ends of a mouth is within a few hundredths then (docs/verification.md).
 constexpr double kMouthEdge = 1;
 constexpr double kMouthEdgeGrowth = 1;
+constexpr double kEqualLength = 1e-6;  // × an edge: lengths that round-off alone tells apart
 
 // Distance of x behind the front at node a: across the front's tangent.
 double distance_behind(const Vec3& front, const FrontFrame& frame, const Vec3& x) {
@@ -61,7 +62,7 @@ DividedMesh divide_near(const TriMesh& surface, const TriMesh& sheet, double cra
   return bisect_longest_edges(surface, [&](const Triangle& t) {
     const double longest = std::sqrt(
         std::max({(t[0] - t[1]).squaredNorm(), (t[1] - t[2]).squaredNorm(), (t[2] - t[0]).squaredNorm()}));
-    const double reach = (longest - kMouthEdge * crack_edge) / kMouthEdgeGrowth;
+    const double reach = (longest - kMouthEdge * crack_edge) / kMouthEdgeGrowth - kEqualLength * longest;
     if (!(reach > 0)) return false;
     const Vec3 margin = Vec3::Constant(reach);
     const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);

@@ -62,9 +62,11 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   const double cell_volume = std::pow(grid->size(), 3);
   std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());
-  for (int p = 0; p <= *std::max_element(part.begin(), part.end()); ++p) {
+  // Each crack with the others as walls, and then all of them together: what is left may be much to one alone.
+  const int parts = *std::max_element(part.begin(), part.end()) + 1;
+  for (int p = 0; p < (parts > 1 ? parts + 1 : parts); ++p) {
     for (std::size_t t = 0; t < crack.size(); ++t)
-      crack[t] = part[sheets.corners[TriId(t)][0].index()] == p;
+      crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == p;
     CellPartition partition = minimal_cut(*grid, crack, band);
     const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
     const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);

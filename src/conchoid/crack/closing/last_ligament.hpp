@@ -18,7 +18,7 @@ struct LastLigament {
   double smaller_part = 0;  ///< volume of the smaller side [m³]
 };
 
-/// The ligaments of all connected cracks, those with the smallest half width first. They lie within kLigamentBand
+/// The ligaments of each connected crack, the others being walls, and of all together, those with the smallest half width first. They lie within kLigamentBand
 /// of the cracks' fronts: a crack that has farther to go has none, nor has one whose cut would leave less of it
 /// than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of `target_edge`,
 /// or more where the body would have more than kMostCells.
