@@ -106,10 +106,10 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
   return cut;
 }
 
-void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run, LigamentsOf of,
                   const std::function<bool(const LastLigament&)>& breaks) {
   const TriMesh all = join(cut.sheets);
-  for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge)) {
+  for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge, of)) {
     if (!breaks(ligament)) continue;
     std::vector<Fragment> best;
     TriMesh best_surface;

@@ -133,7 +133,7 @@ struct Fracture::State {
   std::vector<TriMesh> unfold_visible_sheets() const;
   bool is_told(double volume);
   bool separated();
-  bool parts(const std::function<bool(const LastLigament&)>& breaks);
+  bool parts(LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks);
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -156,12 +156,12 @@ bool Fracture::State::is_told(double volume) {
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
   if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
-  return parts([](const LastLigament&) { return true; });
+  return parts(LigamentsOf::each, [](const LastLigament&) { return true; });
 }
 
-bool Fracture::State::parts(const std::function<bool(const LastLigament&)>& breaks) {
+bool Fracture::State::parts(LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks) {
   BodyCut cut = cut_body(*body, settings, visible_sheets());
-  if (!cut.parted()) cut_ligament(cut, *body, settings, breaks);
+  if (!cut.parted()) cut_ligament(cut, *body, settings, of, breaks);
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
   return parted.has_value();
 }
@@ -180,10 +180,12 @@ bool Fracture::State::ligament_breaks(bool at_end) {
     return ligament_breaks_at_once(ligament, front, at_end);
   };
   // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
-  const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge);
+  // Cracks that bar each other's way for good may have left little together that is much to each.
+  const LigamentsOf of = at_end ? LigamentsOf::each_and_all : LigamentsOf::each;
+  const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge, of);
   const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
   if (first == ligaments.end()) return false;
-  return is_told(first->smaller_part) || parts(breaks);
+  return is_told(first->smaller_part) || parts(of, breaks);
 }
 
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.

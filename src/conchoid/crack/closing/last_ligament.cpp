@@ -52,8 +52,8 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
 
 }  // namespace
 
-std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets,
-                                              double target_edge) {
+std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge,
+                                              LigamentsOf of) {
   if (sheets.corners.empty()) return {};
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
@@ -62,9 +62,9 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   const double cell_volume = std::pow(grid->size(), 3);
   std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());
-  // Each crack with the others as walls, and then all of them together: what is left may be much to one alone.
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
-  for (int p = 0; p < (parts > 1 ? parts + 1 : parts); ++p) {
+  const bool together = parts > 1 && of == LigamentsOf::each_and_all;
+  for (int p = 0; p < parts + (together ? 1 : 0); ++p) {
     for (std::size_t t = 0; t < crack.size(); ++t)
       crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == p;
     CellPartition partition = minimal_cut(*grid, crack, band);

@@ -18,13 +18,17 @@ struct LastLigament {
   double smaller_part = 0;  ///< volume of the smaller side [m³]
 };
 
-/// The ligaments of each connected crack, the others being walls, and of all together, those with the smallest half width first. They lie within kLigamentBand
-/// of the cracks' fronts: a crack that has farther to go has none, nor has one whose cut would leave less of it
-/// than is to be broken (minimal_cut), or a part of a few cells only. Cells have 1/kCellsPerEdge of `target_edge`,
-/// or more where the body would have more than kMostCells.
+/// Of which cracks ligaments are looked for: what is left may be much to each of several, but little to all.
+enum class LigamentsOf { each, each_and_all };
+
+/// The ligaments of each connected crack, the others being walls, or of all together as well, those with the smallest
+/// half width first. They lie within kLigamentBand of the cracks' fronts: a crack that has farther to go has none, nor has
+/// one whose cut would leave less of it than is to be broken (minimal_cut), or a part of a few cells only. Cells have
+/// 1/kCellsPerEdge of `target_edge`, or more where the body would have more than kMostCells.
 /// @param body    closed, outward
 /// @param sheets  all cracks, as fine as they are known; may stick out of the body
-std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge);
+std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge,
+                                              LigamentsOf of = LigamentsOf::each);
 
 /// How a ligament's surface lies over the cracks it joins.
 struct LigamentOverlap {
