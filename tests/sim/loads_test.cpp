@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/piece_scene.hpp"
@@ -43,6 +44,19 @@ double error_of(const StressReport& report, const Vec3& principal) {
 
 std::string refusal_of_scene(const std::string& text) {
   return test::refusal([&] { prepare(test::scene_from_text(text)); });
+}
+
+/// Force [N], and moment [N m] about the middle of the cube's upper side, of a scene's tractions.
+std::pair<Vec3, Vec3> resultant_on_top(const Scene& scene) {
+  const PreparedBody body = prepare(scene);
+  const LoadCase load = load_of(scene, body);
+  Vec3 f = Vec3::Zero(), m = Vec3::Zero();
+  for (std::size_t t = 0; t < load.traction.size(); ++t) {
+    const Vec3 part = area_vector(body.surface, TriId(t)).norm() * load.traction[t];
+    f += part;
+    m += cross(centroid(body.surface, TriId(t)) - Vec3(0, 0, 0.5), part);
+  }
+  return {f, m};
 }
 
 }  // namespace
@@ -176,14 +190,7 @@ TEST(Loads, ForceAndMomentHaveExactlyTheirResultant) {
   const Scene scene = test::scene_from_text(
       cube(condition("z-", "fixed = true") +
            condition("z+", fmt::format("force = {}\nmoment = {}", test::text(force), test::text(moment)))));
-  const PreparedBody body = prepare(scene);
-  const LoadCase load = load_of(scene, body);
-  Vec3 f = Vec3::Zero(), m = Vec3::Zero();
-  for (std::size_t t = 0; t < load.traction.size(); ++t) {
-    const Vec3 part = area_vector(body.surface, TriId(t)).norm() * load.traction[t];
-    f += part;
-    m += cross(centroid(body.surface, TriId(t)) - Vec3(0, 0, 0.5), part);
-  }
+  const auto [f, m] = resultant_on_top(scene);
   EXPECT_LT((f - force).norm(), 1e-9 * force.norm());
   EXPECT_LT((m - moment).norm(), 1e-9 * moment.norm());
 }
@@ -196,14 +203,7 @@ TEST(Loads, ForceMomentAndPressureActBesideAComponentThatIsHeld) {
       cube(condition("z-", "fixed = true") +
            condition("z+", roller + fmt::format("force = {}\nmoment = {}", test::text(force),
                                                 test::text(moment)))));
-  const PreparedBody body = prepare(scene);
-  const LoadCase load = load_of(scene, body);
-  Vec3 f = Vec3::Zero(), m = Vec3::Zero();
-  for (std::size_t t = 0; t < load.traction.size(); ++t) {
-    const Vec3 part = area_vector(body.surface, TriId(t)).norm() * load.traction[t];
-    f += part;
-    m += cross(centroid(body.surface, TriId(t)) - Vec3(0, 0, 0.5), part);
-  }
+  const auto [f, m] = resultant_on_top(scene);
   EXPECT_LT((f - force).norm(), 1e-9 * force.norm());
   EXPECT_LT((m - moment).norm(), 1e-9 * moment.norm());
   // Pressed on two sides, which slide along a wall that holds them across: σ_y = −p, σ_z = ν σ_y, σ_x = 0.

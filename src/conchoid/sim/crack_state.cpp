@@ -29,12 +29,16 @@ double distance_behind(const Vec3& front, const FrontFrame& frame, const Vec3& x
   return (d - d.dot(frame.e3) * frame.e3).norm();
 }
 
+double squared_longest_edge(const Triangle& t) {
+  return std::max({(t[0] - t[1]).squaredNorm(), (t[1] - t[2]).squaredNorm(), (t[2] - t[0]).squaredNorm()});
+}
+
 // Smallest altitude over longest edge among the pieces of the cut.
 double worst_piece(const CutComplex& cut) {
   double worst = std::numeric_limits<double>::infinity();
   const auto look_at = [&](const std::array<NodeId, 3>& c) {
     const Vec3 &a = cut.positions[c[0]], &b = cut.positions[c[1]], &d = cut.positions[c[2]];
-    const double longest = std::max({(a - b).squaredNorm(), (b - d).squaredNorm(), (d - a).squaredNorm()});
+    const double longest = squared_longest_edge({a, b, d});
     const double altitude = longest > 0 ? area_vector2(a, b, d).norm() / longest : 0;
     worst = std::min(worst, altitude);
   };
@@ -60,8 +64,7 @@ DividedMesh divide_near(const TriMesh& surface, const TriMesh& sheet, double cra
   const BoxTree boxes(sheet);
   const ClosestPointTree near(sheet);
   return bisect_longest_edges(surface, [&](const Triangle& t) {
-    const double longest = std::sqrt(
-        std::max({(t[0] - t[1]).squaredNorm(), (t[1] - t[2]).squaredNorm(), (t[2] - t[0]).squaredNorm()}));
+    const double longest = std::sqrt(squared_longest_edge(t));
     const double reach = (longest - kMouthEdge * crack_edge) / kMouthEdgeGrowth - kEqualLength * longest;
     if (!(reach > 0)) return false;
     const Vec3 margin = Vec3::Constant(reach);
