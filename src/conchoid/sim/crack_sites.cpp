@@ -77,16 +77,23 @@ std::vector<InitiationCandidate> find_branches(const PreparedBody& prepared, con
   return out;
 }
 
+// Per triangle of the body whether a crack's mouth runs through it or along it; division alone does not count.
+std::vector<char> with_mouth(std::size_t count, const CutComplex& cut) {
+  std::vector<char> out(count, 0);
+  for (std::size_t t = 0; t < cut.surface.size(); ++t) {
+    const auto& c = cut.surface[TriId(t)];
+    for (int k = 0; k < 3; ++k)
+      if (std::binary_search(cut.mouth.begin(), cut.mouth.end(), Edge(c[k], c[(k + 1) % 3])))
+        out[cut.surface_parent[t].index()] = 1;
+  }
+  return out;
+}
+
 // Candidates for new cracks: free triangles that no crack cuts, pulled across rather than along their normal,
 // where σ1 exceeds so many times the strength.
 std::vector<InitiationCandidate> find_on_surface(const PreparedBody& prepared, const CrackState& crack,
                                                  const CrackedBody& body, double strength, double times) {
-  std::vector<char> cut(prepared.surface.triangle_count(), 0);
-  for (std::size_t t = 0, n = 0; t < crack.cut.surface.size(); ++t) {
-    const std::size_t parent = crack.cut.surface_parent[t].index();
-    n = t > 0 && crack.cut.surface_parent[t - 1].index() == parent ? n + 1 : 0;
-    if (n > 0) cut[parent] = 1;
-  }
+  const std::vector<char> cut = with_mouth(prepared.surface.triangle_count(), crack.cut);
   const Vec3 center = bounding_box(prepared.surface).center();
   std::vector<InitiationCandidate> out;
   const std::vector<Mat3> stress = body.surface_stress();

@@ -122,6 +122,8 @@ struct Fracture::State {
   double cut_below =
       std::numeric_limits<double>::infinity();         // volume that comes off: above, nothing is cut [m³]
   std::optional<BodyCut> parted;                       // when it separated
+  int vain_cuts = 0;                                   // that did not part the body
+  int cut_again = 0;                                   // the first frame in which it is worth another try
   double part_volume = 0;                              // of what has come off when it was not cut [m³]
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
@@ -133,7 +135,7 @@ struct Fracture::State {
   std::vector<TriMesh> unfold_visible_sheets() const;
   bool is_told(double volume);
   bool separated();
-  bool parts(LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks);
+  bool parts(LigamentsOf of, bool at_end, const std::function<bool(const LastLigament&)>& breaks);
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -156,13 +158,18 @@ bool Fracture::State::is_told(double volume) {
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
   if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
-  return parts(LigamentsOf::each, [](const LastLigament&) { return true; });
+  return parts(LigamentsOf::each, false, [](const LastLigament&) { return true; });
 }
 
-bool Fracture::State::parts(LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks) {
+// The more often cutting was in vain, the longer it waits for more to have cracked: what cannot be cut cleanly
+// stays so for a while, and each try costs as much as many frames. The last chance is always taken.
+bool Fracture::State::parts(LigamentsOf of, bool at_end,
+                            const std::function<bool(const LastLigament&)>& breaks) {
+  if (!at_end && frame < cut_again) return false;
   BodyCut cut = cut_body(*body, settings, visible_sheets());
   if (!cut.parted()) cut_ligament(cut, *body, settings, of, breaks);
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
+  if (!parted) cut_again = frame + ++vain_cuts;
   return parted.has_value();
 }
 
@@ -185,7 +192,7 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge, of);
   const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
   if (first == ligaments.end()) return false;
-  return is_told(first->smaller_part) || parts(of, breaks);
+  return is_told(first->smaller_part) || parts(of, at_end, breaks);
 }
 
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.
