@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "conchoid/core/random.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
@@ -23,7 +24,8 @@ namespace {
 struct Body {
   TriMesh mesh;
   double crack_edge;
-  double end = 0;  ///< share of the height that is held and loaded; 0: the plane ends alone
+  double end = 0;      ///< share of the height that is held and loaded; 0: the plane ends alone
+  double section = 0;  ///< across a convex body [m²]
 };
 
 TriMesh centred(TriMesh mesh) {
@@ -36,13 +38,13 @@ TriMesh centred(TriMesh mesh) {
 Body draw_body(std::size_t kind) {
   switch (kind) {
     case 0:
-      return {centred(box_mesh(Vec3::Constant(2), 8, 8, 8)), 0.2};
+      return {centred(box_mesh(Vec3::Constant(2), 8, 8, 8)), 0.2, 0, 4};
     case 1:
       return {
           shapes::turned(shapes::divided({{0, -2}, {1, -2}, {1, 2}, {0, 2}}, {4, 8, 4}, false), 20, false),
-          0.25};
+          0.25, 0, std::numbers::pi};
     case 2:
-      return {centred(box_mesh({1, 1, 5}, 4, 4, 18)), 0.18};
+      return {centred(box_mesh({1, 1, 5}, 4, 4, 18)), 0.18, 0, 1};
     case 3:
       return {shapes::torus(2, 0.7, 24, 10), 0.25, 0.12};
     case 4:
@@ -150,6 +152,12 @@ TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
     volume += f.volume;
   }
   EXPECT_NEAR(volume, result.document.body_volume, 1e-9 * result.document.body_volume) << text;
+  if (const double section = draw_body(static_cast<std::size_t>(GetParam()) % 8).section; section > 0) {
+    const double sections = surface_area(result.crack) / section;
+    RecordProperty("sections", test::text(sections));
+    EXPECT_LE(sections, cracks + 1) << text;
+  }
+  RecordProperty("K over K_c", test::text(result.document.largest_K_over_Kc.value_or(0)));
   RecordProperty("stop", std::string(name(stop)));
   RecordProperty("pieces", static_cast<int>(result.fragments.size()));
 }
