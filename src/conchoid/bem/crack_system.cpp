@@ -58,8 +58,8 @@ CrackSystem::CrackSystem(std::shared_ptr<const BodyOperator> body)
       host_(make_crack_host(body_)),
       space_(make_enriched_space(whole_surface(body_->surface()), body_->surface(), body_->kinds())) {}
 
-void CrackSystem::set_crack(const CutComplex& cut, RowStore* store) {
-  space_ = make_enriched_space(cut, body_->surface(), body_->kinds());
+void CrackSystem::set_crack(const CutComplex& cut, const CutDivision& division, RowStore* store) {
+  space_ = make_enriched_space(cut, body_->surface(), body_->kinds(), division);
   const Plan plan = plan_replacement();
   append(plan, stored_rows(*host_, space_, sources_, plan.wanted, store, pairs_));
   factored_ = std::min(factored_, plan.unchanged);

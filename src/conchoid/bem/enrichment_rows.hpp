@@ -16,7 +16,8 @@ namespace conchoid {
 /// whose middle terms are −(sources · prescribed values); the others are enrichment_load().
 struct EnrichmentRows {
   DenseMatrix body;      ///< 3 × body unknowns: K_aᵀ against the tractions, D against the displacements
-  DenseMatrix enriched;  ///< 3 × 3·functions: D against all enrichment functions
+  DenseMatrix enriched;  ///< 3 × 3·functions: D against the enrichment functions; none for those that come after it in
+                         ///< `wanted`, as D is symmetric
   DenseMatrix sources;   ///< 3 × 3·sources: K_aᵀ of prescribed tractions, D of prescribed displacements
 };
 
