@@ -190,8 +190,7 @@ class SpaceBuilder {
   }
 
   void add_middle(NodeId node) {
-    out_.functions.push_back(
-        {EnrichmentKind::hat, node, middle_values_[node.index()], {}, Mat3::Identity()});
+    out_.functions.push_back({EnrichmentKind::hat, node, middle_values_[node.index()], {}, Mat3::Identity()});
   }
 
   // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points

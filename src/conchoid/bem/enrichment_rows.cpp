@@ -288,8 +288,8 @@ class RowAssembler {
       if (const Columns to = displacement_columns(NodeId(node)); !to.none())
         to.add(rows, sums.body[node].tested(f.curl));
     for (const TractionPair& t : sums.tractions)
-      traction_columns(t.parent)
-          .add(rows, t.blocks.double_layer(f.curl, weigh(t.double_layer, f.w)).transpose());
+      traction_columns(t.parent).add(rows,
+                                     t.blocks.double_layer(f.curl, weigh(t.double_layer, f.w)).transpose());
   }
 
   const BodyDiscretisation& body_;

@@ -31,7 +31,9 @@ int longest_edge(const IdVector<NodeId, Vec3>& positions, const Corners& c) {
 class Bisection {
  public:
   explicit Bisection(const TriMesh& mesh)
-      : out_{mesh, std::vector<TriId>(mesh.triangle_count()), {},
+      : out_{mesh,
+             std::vector<TriId>(mesh.triangle_count()),
+             {},
              std::vector<std::size_t>(mesh.triangle_count(), kNoHalf)},
         fine_(mesh.triangle_count(), 0) {
     for (std::size_t t = 0; t < out_.parent.size(); ++t)

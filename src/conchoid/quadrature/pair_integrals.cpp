@@ -65,9 +65,8 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
 /// X lies in the plane of Y, up to rounding.
 bool in_one_plane(const Panel& x, const Panel& y) {
   const double noise = plane_noise(x, y);
-  return std::all_of(x.x.begin(), x.x.end(), [&](const Vec3& corner) {
-    return std::abs(y.normal.dot(corner - y.x[0])) <= noise;
-  });
+  return std::all_of(x.x.begin(), x.x.end(),
+                     [&](const Vec3& corner) { return std::abs(y.normal.dot(corner - y.x[0])) <= noise; });
 }
 
 Vec3 touching_double_layer(const TouchingPair& pair, int shared, double tolerance) {
