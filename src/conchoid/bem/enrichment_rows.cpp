@@ -155,8 +155,15 @@ class RowAssembler {
     return r;
   }
 
-  // Functions of the panel are still to come: it has a corner on the front, or lies at the mouth.
-  bool at_front(std::size_t x) const { return x < space_.surface_count || trial_[x].size() < 3; }
+  // Functions of the panel are still to come: it has a corner on the front, or lies at the mouth. Other pieces of the
+  // surface are tested once, with the hat of the edge whose division made them.
+  bool at_front(std::size_t x) const {
+    return x < space_.surface_count ? std::any_of(trial_[x].begin(), trial_[x].end(),
+                                                  [&](const LocalFunction& f) {
+                                                    return space_.functions[f.index].carries_opening();
+                                                  })
+                                    : trial_[x].size() < 3;
+  }
 
   void sum_up(std::size_t x, PanelSums& out) {
     if (memory_ && at_front(x)) made_[x] = PairMemory::row_of(space_.panels.size());
