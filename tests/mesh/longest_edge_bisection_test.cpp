@@ -90,11 +90,45 @@ TEST(LongestEdgeBisection, MoreThatIsTooCoarseOnlyDividesFurther) {
   EXPECT_TRUE(std::includes(many.begin(), many.end(), few.begin(), few.end()));
 }
 
+// The halves are the history of the division: each lies where it says in its triangle of the first mesh, and around the
+// middle of every edge that was divided there are four.
+TEST(LongestEdgeBisection, HalvesTellHowEveryTriangleWasMade) {
+  const TriMesh mesh = box_mesh({1, 1, 1}, 3, 3, 3);
+  const DividedMesh divided = bisect_longest_edges(mesh, near_place(kPlace, 0.05));
+  ASSERT_EQ(divided.half.size(), divided.mesh.triangle_count());
+  std::vector<int> around(divided.mesh.node_count(), 0);
+  for (const HalfTriangle& half : divided.halves)
+    ++around[half.corners[2].index()];
+  for (std::size_t i = 0; i < around.size(); ++i)
+    EXPECT_EQ(around[i], i < mesh.node_count() ? 0 : 4);
+  for (std::size_t t = 0; t < divided.half.size(); ++t) {
+    if (divided.half[t] == kNoHalf) {
+      EXPECT_EQ(divided.mesh.corners[TriId(t)], mesh.corners[divided.parent[t]]);
+      continue;
+    }
+    EXPECT_EQ(divided.halves[divided.half[t]].corners, divided.mesh.corners[TriId(t)]);
+    const Triangle parent = mesh.triangle(divided.parent[t]);
+    for (std::size_t h = divided.half[t]; h != kNoHalf; h = divided.halves[h].whole) {
+      const HalfTriangle& half = divided.halves[h];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& l = half.in_parent[k];
+        EXPECT_EQ(l.sum(), 1);
+        EXPECT_LT(
+            (l[0] * parent[0] + l[1] * parent[1] + l[2] * parent[2] - divided.mesh.positions[half.corners[k]])
+                .norm(),
+            1e-15);
+      }
+      EXPECT_TRUE(half.whole == kNoHalf || half.whole < h);
+    }
+  }
+}
+
 TEST(LongestEdgeBisection, WhatIsFineStaysAsItIs) {
   const TriMesh mesh = box_mesh({1, 1, 1}, 3, 3, 3);
   const DividedMesh same = bisect_longest_edges(mesh, [](const Triangle&) { return false; });
   EXPECT_EQ(same.mesh.corners, mesh.corners);
   EXPECT_EQ(same.parent.size(), mesh.triangle_count());
+  EXPECT_TRUE(same.halves.empty());
 }
 
 }  // namespace

@@ -159,16 +159,19 @@ void BodyEntries::hypersingular(std::span<const NodeId> rows, std::span<const No
   const std::vector<std::size_t> test = triangles_around(body_, rows),
                                  trial = triangles_around(body_, columns);
   const auto row = columns_of_corners(body_, test, rows), column = columns_of_corners(body_, trial, columns);
-  for (std::size_t s = 0; s < test.size(); ++s)
+  std::vector<PairBlocks::TrialSum> sums(columns.size());  // per column, as one test triangle sees it
+  for (std::size_t s = 0; s < test.size(); ++s) {
+    std::fill(sums.begin(), sums.end(), PairBlocks::TrialSum());
     for (std::size_t t = 0; t < trial.size(); ++t) {
-      const std::size_t x = test[s], y = trial[t];
-      const PairBlocks blocks(pair(x, y), body_.m);
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b)
-          if (row[s][a] >= 0 && column[t][b] >= 0)
-            add(out, static_cast<std::size_t>(row[s][a]), static_cast<std::size_t>(column[t][b]),
-                blocks.hypersingular(body_.curls[x][a], body_.curls[y][b]));
+      const PairBlocks blocks(pair(test[s], trial[t]), body_.m);
+      for (int b = 0; b < 3; ++b)
+        if (column[t][b] >= 0)
+          sums[static_cast<std::size_t>(column[t][b])].add(blocks, body_.curls[trial[t]][b]);
     }
+    for (int a = 0; a < 3; ++a)
+      for (std::size_t j = 0; row[s][a] >= 0 && j < sums.size(); ++j)
+        add(out, static_cast<std::size_t>(row[s][a]), j, sums[j].tested(body_.curls[test[s]][a]));
+  }
 }
 
 void BodyEntries::system_single_layer(std::span<const TriId> rows, std::span<const TriId> columns,

@@ -58,8 +58,8 @@ CrackSystem::CrackSystem(std::shared_ptr<const BodyOperator> body)
       host_(make_crack_host(body_)),
       space_(make_enriched_space(whole_surface(body_->surface()), body_->surface(), body_->kinds())) {}
 
-void CrackSystem::set_crack(const CutComplex& cut, RowStore* store) {
-  space_ = make_enriched_space(cut, body_->surface(), body_->kinds());
+void CrackSystem::set_crack(const CutComplex& cut, const CutDivision& division, RowStore* store) {
+  space_ = make_enriched_space(cut, body_->surface(), body_->kinds(), division);
   const Plan plan = plan_replacement();
   append(plan, stored_rows(*host_, space_, sources_, plan.wanted, store, pairs_));
   factored_ = std::min(factored_, plan.unchanged);
@@ -95,8 +95,12 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
   for (std::size_t i = 0; i < kept; ++i) {
     functions.push_back(std::move(functions_[plan.before[i]]));
     functions.back().node = space_.functions[plan.order[i]].node;
-    for (std::size_t j = 0; j < kept; ++j)
-      S.add(3 * i, 3 * j, block_of(S_, 3 * plan.before[i], 3 * plan.before[j]));
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double* from = S_.data.data() + (3 * plan.before[i] + p) * S_.columns;
+      double* to = S.data.data() + (3 * i + p) * S.columns;
+      for (std::size_t j = 0; j < kept; ++j)
+        std::copy_n(from + 3 * plan.before[j], 3, to + 3 * j);
+    }
   }
   for (std::size_t w = 0; w < plan.wanted.size(); ++w)
     functions.push_back(make_function(space_, space_.functions[plan.wanted[w]], rows[w]));
@@ -149,11 +153,13 @@ DenseMatrix CrackSystem::couplings(std::size_t first) const {
 
 void CrackSystem::eliminate() {
   const std::size_t before = 3 * factored_, count = size() - before;
-  std::vector<double> coupling(count * before), diagonal(count * count);
+  std::vector<double> coupling, diagonal;
+  coupling.reserve(count * before);
+  diagonal.reserve(count * count);
   for (std::size_t i = 0; i < count; ++i) {
     const double* row = S_.data.data() + (before + i) * S_.columns;
-    std::copy_n(row, before, coupling.data() + i * before);
-    std::copy_n(row + before, count, diagonal.data() + i * count);
+    coupling.insert(coupling.end(), row, row + before);
+    diagonal.insert(diagonal.end(), row + before, row + before + count);
   }
   if (!factor_.append(coupling, diagonal))
     throw SingularSystem(

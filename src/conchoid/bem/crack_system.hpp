@@ -46,7 +46,7 @@ class CrackSystem {
   /// Replaces the crack. Functions whose support did not change keep their rows, in the order they had; new
   /// ones come after them. Errors: SingularSystem when a piece has come off.
   /// @param store  may be null
-  void set_crack(const CutComplex& cut, RowStore* store);
+  void set_crack(const CutComplex& cut, const CutDivision& division, RowStore* store);
   /// Makes the columns of sources that are not there yet, for every function.
   void need_sources(std::span<const LoadSource> sources);
 

@@ -91,9 +91,9 @@ void CrackedBody::keep_rows(RowStore* store) {
   state_->store = store;
 }
 
-void CrackedBody::set_crack(const CutComplex& cut) {
+void CrackedBody::set_crack(const CutComplex& cut, const CutDivision& division) {
   state_->cut_nodes = cut.positions.size();
-  state_->crack.set_crack(cut, state_->store);
+  state_->crack.set_crack(cut, division, state_->store);
 }
 
 void CrackedBody::set_load(LoadCase load) {

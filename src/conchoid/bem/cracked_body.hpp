@@ -45,7 +45,8 @@ class CrackedBody {
   /// the body. None at first.
   void keep_rows(RowStore* store);
   /// Replaces the crack. Errors: SingularSystem when a piece has come off.
-  void set_crack(const CutComplex& cut);
+  /// @param division  of the surface before it was cut; empty: none
+  void set_crack(const CutComplex& cut, const CutDivision& division = {});
   /// Replaces the load, on body and crack; call solve() before anything is read. Errors: InputError when it
   /// does not fit; the load is then as before.
   void set_load(LoadCase load);

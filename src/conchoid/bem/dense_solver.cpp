@@ -1,7 +1,9 @@
 #include "conchoid/bem/dense_solver.hpp"
 
+#include <algorithm>
 #include <optional>
 
+#include "conchoid/bem/node_groups.hpp"
 #include "conchoid/bem/schur_factors.hpp"
 #include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/bytes.hpp"
@@ -65,16 +67,32 @@ class DenseSolver : public BodySolver {
     factors_.reduce_coupling();
   }
 
+  // Between groups of nodes that lie together, whatever their place in the system: a triangle's pairs are looked at once
+  // for all nodes of a group.
   void assemble_hypersingular(const BodyEntries& entries) {
-    const auto& nodes = entries.body().free_nodes;
-    const std::vector<TiledCholesky::Tile> tiles = factors_.S().tiles();
-    parallel_for(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const TiledCholesky::Tile& t = tiles[i];
-        entries.system_hypersingular(part(nodes, t.row, t.rows), part(nodes, t.column, t.columns),
-                                     {t.data, 1, t.rows});
-      }
+    constexpr std::size_t most = 160;
+    const BodyDiscretisation& body = entries.body();
+    const auto groups = compact_groups(body.surface.positions, body.free_nodes, most);
+    parallel_for(groups.size() * groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        if (const std::size_t i = k / groups.size(), j = k % groups.size(); j <= i)
+          assemble_hypersingular(entries, groups[i], groups[j]);
     });
+  }
+
+  void assemble_hypersingular(const BodyEntries& entries, std::span<const NodeId> rows,
+                              std::span<const NodeId> columns) {
+    const std::vector<int>& unknown = entries.body().displacement_unknown;
+    std::vector<double> D(9 * rows.size() * columns.size());
+    entries.system_hypersingular(rows, columns, {D.data(), 1, 3 * rows.size()});
+    for (std::size_t b = 0; b < 3 * columns.size(); ++b)
+      for (std::size_t a = 0; a < 3 * rows.size(); ++a) {
+        const std::size_t row = 3 * static_cast<std::size_t>(unknown[rows[a / 3].index()]) + a % 3,
+                          column = 3 * static_cast<std::size_t>(unknown[columns[b / 3].index()]) + b % 3;
+        if (row < column && rows.data() == columns.data())
+          continue;  // the block has it the other way round, too
+        factors_.S().entry(std::max(row, column), std::min(row, column)) = D[3 * rows.size() * b + a];
+      }
   }
 
   SchurFactors factors_;

@@ -55,11 +55,18 @@ class Star {
 
 class SpaceBuilder {
  public:
-  SpaceBuilder(const CutComplex& cut, const TriMesh& surface, const std::vector<BoundaryKind>& kinds)
-      : cut_(cut), surface_(surface), kinds_(kinds), surface_star_(cut.surface), crack_star_(cut.sheet) {}
+  SpaceBuilder(const CutComplex& cut, const TriMesh& surface, const std::vector<BoundaryKind>& kinds,
+               const CutDivision& division)
+      : cut_(cut),
+        surface_(surface),
+        kinds_(kinds),
+        division_(division),
+        surface_star_(cut.surface),
+        crack_star_(cut.sheet) {}
 
   EnrichedSpace build() {
     add_panels();
+    add_halves();
     classify_nodes();
     for (std::size_t i = 0; i < cut_.positions.size(); ++i)
       add_functions(NodeId(i));
@@ -89,10 +96,41 @@ class SpaceBuilder {
         values[k] =
             own == parent.end() ? barycentric(x, cut_.positions[c[k]]) : Vec3::Unit(own - parent.begin());
       }
+      if (const std::size_t half = half_of(t); half != kNoHalf) keep_exact(division_.halves[half], c, values);
       out_.parent_values.push_back(values);
     }
     for (const Corners& c : cut_.sheet)
       out_.panels.push_back(make_panel(geometry(c), c));
+  }
+
+  std::size_t half_of(std::size_t piece) const {
+    return division_.half.empty() ? kNoHalf : division_.half[piece];
+  }
+
+  // Corners that the piece shares with the half it lies in.
+  static void keep_exact(const HalfTriangle& half, const Corners& piece, std::array<Vec3, 3>& values) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (half.corners[i] == piece[k]) values[k] = half.in_parent[i];
+  }
+
+  // The hats of the middles of divided edges, and how the pieces see them.
+  void add_halves() {
+    halves_of_.resize(cut_.positions.size());
+    middle_values_.resize(cut_.positions.size());
+    std::vector<Vec3> function;  // per half: what its middle's hat is of the parent's corner functions
+    for (std::size_t h = 0; h < division_.halves.size(); ++h) {
+      const HalfTriangle& half = division_.halves[h];
+      halves_of_[half.corners[2].index()].push_back(h);
+      const Vec3 n = cross(half.in_parent[0], half.in_parent[1]);
+      function.push_back(n / n.dot(half.in_parent[2]));
+    }
+    for (std::size_t t = 0; t < cut_.surface.size(); ++t)
+      for (std::size_t h = half_of(t); h != kNoHalf; h = division_.halves[h].whole) {
+        const std::array<Vec3, 3>& at = out_.parent_values[t];
+        middle_values_[division_.halves[h].corners[2].index()].push_back(
+            {t, {function[h].dot(at[0]), function[h].dot(at[1]), function[h].dot(at[2])}});
+      }
   }
 
   void classify_nodes() {
@@ -121,7 +159,10 @@ class SpaceBuilder {
   void add_functions(NodeId node) {
     const bool on_mouth = !mouth_edges_[node.index()].empty();
     if (held_[node.index()].isIdentity(0)) return;
-    if (!is_surface_node(node) && !surface_star_.around(node).empty()) add_hat(node);
+    if (!halves_of_[node.index()].empty())
+      add_middle(node);
+    else if (!is_surface_node(node) && !surface_star_.around(node).empty())
+      add_hat(node);
     if (crack_star_.around(node).empty()) return;
     if (on_front_[node.index()]) return;
     if (!on_mouth) return add_crack_hat(node);
@@ -146,6 +187,10 @@ class SpaceBuilder {
     for (std::size_t t : surface_star_.around(node))
       f.support.push_back({t, unit_value(cut_.surface[TriId(t)], node, 1)});
     out_.functions.push_back(std::move(f));
+  }
+
+  void add_middle(NodeId node) {
+    out_.functions.push_back({EnrichmentKind::hat, node, middle_values_[node.index()], {}, Mat3::Identity()});
   }
 
   // The surface pieces around a mouth node fall into two fans. The piece on the side the crack normal points
@@ -186,21 +231,32 @@ class SpaceBuilder {
     return std::find(others.begin(), others.end(), b) != others.end();
   }
 
+  using KeyPart = std::array<double, 12>;
+
+  // A triangle and the values at its corners, of which only that of corner `first` is not zero.
+  static KeyPart key_part(const Triangle& x, const std::array<double, 3>& w, int first) {
+    KeyPart part;
+    for (int k = 0; k < 3; ++k) {
+      const int c = (first + k) % 3;
+      for (int j = 0; j < 3; ++j)
+        part[4 * k + j] = x[c][j];
+      part[4 * k + 3] = w[c];
+    }
+    return part;
+  }
+
   void make_key(EnrichmentFunction& f) const {
-    std::vector<std::array<double, 12>> parts;
-    for (const PanelValues& v : f.support) {
-      const Panel& p = out_.panels[v.panel];
-      int first = 0;  // the corner with the value that is not zero comes first
-      while (first < 2 && v.w[first] == 0)
-        ++first;
-      std::array<double, 12> part;
-      for (int k = 0; k < 3; ++k) {
-        const int c = (first + k) % 3;
-        for (int j = 0; j < 3; ++j)
-          part[4 * k + j] = p.x[c][j];
-        part[4 * k + 3] = v.w[c];
+    std::vector<KeyPart> parts;
+    if (f.kind == EnrichmentKind::hat && !halves_of_[f.node.index()].empty()) {
+      for (const std::size_t h : halves_of_[f.node.index()])
+        parts.push_back(key_part(geometry(division_.halves[h].corners), {0, 0, 1}, 2));
+    } else {
+      for (const PanelValues& v : f.support) {
+        int first = 0;
+        while (first < 2 && v.w[first] == 0)
+          ++first;
+        parts.push_back(key_part(out_.panels[v.panel].x, v.w, first));
       }
-      parts.push_back(part);
     }
     std::sort(parts.begin(), parts.end());
     f.key.push_back(static_cast<double>(f.kind));
@@ -211,18 +267,21 @@ class SpaceBuilder {
   const CutComplex& cut_;
   const TriMesh& surface_;
   const std::vector<BoundaryKind>& kinds_;
+  const CutDivision& division_;
   const Star surface_star_, crack_star_;
   std::vector<char> on_front_;
   std::vector<Mat3> held_;  // per node: projection onto the directions in which it is held
   std::vector<std::vector<NodeId>> mouth_edges_;
+  std::vector<std::vector<std::size_t>> halves_of_;      // per node: the halves that it is the middle of
+  std::vector<std::vector<PanelValues>> middle_values_;  // per node: its hat on the pieces of these
   EnrichedSpace out_;
 };
 
 }  // namespace
 
 EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
-                                  const std::vector<BoundaryKind>& kinds) {
-  return SpaceBuilder(cut, surface, kinds).build();
+                                  const std::vector<BoundaryKind>& kinds, const CutDivision& division) {
+  return SpaceBuilder(cut, surface, kinds, division).build();
 }
 
 CutComplex uncut_sheet(const TriMesh& sheet) {

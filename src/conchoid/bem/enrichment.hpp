@@ -4,6 +4,7 @@
 
 #include "conchoid/bem/boundary.hpp"
 #include "conchoid/intersect/corefine.hpp"
+#include "conchoid/mesh/longest_edge_bisection.hpp"
 #include "conchoid/quadrature/pair_integrals.hpp"
 
 namespace conchoid {
@@ -15,7 +16,8 @@ namespace conchoid {
 ///   mouth  at a node where the crack opens at the surface: Δu = 1 on the crack, u = ±½ on the two sides of
 ///          the surface, so that the surface's displacement jumps by exactly the opening
 ///   hat    continuous hat function of a mouth node on the cut surface: lets the mean of the two sides bend at
-///          the mouth
+///          the mouth; and of the middle of an edge where the surface was divided before the cut, on the four halves
+///          which that made, whatever divides or cuts these again: nothing changes it any more
 enum class EnrichmentKind : unsigned char { crack, mouth, hat };
 
 /// Values of a shape function w at the three corners of one panel of its support.
@@ -43,10 +45,17 @@ struct EnrichedSpace {
   std::vector<EnrichmentFunction> functions;  ///< ordered by node
 };
 
+/// How the surface was divided before it was cut (mesh/longest_edge_bisection.hpp).
+struct CutDivision {
+  std::vector<HalfTriangle> halves;
+  std::vector<std::size_t> half;  ///< per piece of the cut surface: the half it lies in, or kNoHalf
+};
+
 /// Nodes on the front (Δu = 0), and where more than two mouth edges meet carry no opening; nodes on a part of the
 /// surface that is held carry none in its held directions.
+/// @param division  empty: the surface was cut as it is
 EnrichedSpace make_enriched_space(const CutComplex& cut, const TriMesh& surface,
-                                  const std::vector<BoundaryKind>& kinds);
+                                  const std::vector<BoundaryKind>& kinds, const CutDivision& division = {});
 
 /// A cut complex for a crack in an unbounded body: the sheet alone.
 CutComplex uncut_sheet(const TriMesh& sheet);

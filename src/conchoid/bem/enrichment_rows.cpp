@@ -26,9 +26,18 @@ double weigh(const DoubleLayerPair& dl, const std::array<double, 3>& w) {
   return w[0] * dl[0] + w[1] * dl[1] + w[2] * dl[2];
 }
 
-struct TestRows {
-  const LocalFunction& f;
-  EnrichmentRows rows;
+// A triangle of the body with prescribed or unknown traction, as one panel sees it.
+struct TractionPair {
+  TriId parent;
+  PairBlocks blocks;
+  DoubleLayerPair double_layer;
+};
+
+// All trial functions as one panel sees them, whatever it is tested with.
+struct PanelSums {
+  std::vector<PairBlocks::TrialSum> enriched;  // per function of the space
+  std::vector<PairBlocks::TrialSum> body;      // per node of the body
+  std::vector<TractionPair> tractions;
 };
 
 class RowAssembler {
@@ -54,8 +63,11 @@ class RowAssembler {
       curls_.push_back(surface_curls(panel));
     for (std::size_t f = 0; f < space.functions.size(); ++f)
       register_function(f, f, trial_);
-    for (std::size_t w = 0; w < wanted.size(); ++w)
+    rank_.assign(space.functions.size(), 0);
+    for (std::size_t w = 0; w < wanted.size(); ++w) {
       register_function(wanted[w], w, test_);
+      rank_[wanted[w]] = w;
+    }
     for (std::size_t x = 0; x < test_.size(); ++x)
       if (!test_[x].empty()) test_panels_.push_back(x);
     test_index_.assign(test_.size(), -1);
@@ -76,19 +88,25 @@ class RowAssembler {
     });
   }
 
-  // Panels in batches: each panel's contributions are computed apart and added in the order of the panels.
+  // Panels in batches: what each sees is computed apart, then every function adds up its own panels in their order.
   std::vector<EnrichmentRows> assemble() {
     constexpr std::size_t batch = 64;
+    std::vector<PanelSums> sums(batch);
     for (std::size_t start = 0; start < test_panels_.size(); start += batch) {
       const std::size_t count = std::min(batch, test_panels_.size() - start);
-      std::vector<std::vector<TestRows>> parts(count);
       parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-          parts[i] = rows_of_panel(test_panels_[start + i]);
+          sum_up(test_panels_[start + i], sums[i]);
       });
-      for (const auto& part : parts)
-        for (const TestRows& t : part)
-          accumulate(t.rows, rows_[t.f.index]);
+      std::vector<std::vector<TestedPanel>> tested(wanted_.size());
+      for (std::size_t i = 0; i < count; ++i)
+        for (const LocalFunction& f : test_[test_panels_[start + i]])
+          tested[f.index].push_back({&sums[i], &f});
+      parallel_for(wanted_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t w = begin; w < end; ++w)
+          for (const TestedPanel& panel : tested[w])
+            add_panel(*panel.sums, *panel.function, rows_[w]);
+      });
     }
     if (memory_) memory_->remember(space_.panels, std::move(made_));
     for (std::size_t w = 0; w < rows_.size(); ++w)
@@ -97,6 +115,11 @@ class RowAssembler {
   }
 
  private:
+  struct TestedPanel {
+    const PanelSums* sums;
+    const LocalFunction* function;
+  };
+
   void register_function(std::size_t function, std::size_t index, PanelFunctions& lists) const {
     for (const PanelValues& v : space_.functions[function].support)
       lists[v.panel].push_back({index, v.w, curl_of(curls_[v.panel], v.w)});
@@ -132,24 +155,21 @@ class RowAssembler {
     return r;
   }
 
-  static void accumulate(const EnrichmentRows& from, EnrichmentRows& to) {
-    const auto add = [](const std::vector<double>& a, std::vector<double>& b) {
-      for (std::size_t i = 0; i < a.size(); ++i)
-        b[i] += a[i];
-    };
-    add(from.body.data, to.body.data);
-    add(from.enriched.data, to.enriched.data);
-    add(from.sources.data, to.sources.data);
+  // Functions of the panel are still to come: it has a corner on the front, or lies at the mouth. Other pieces of the
+  // surface are tested once, with the hat of the edge whose division made them.
+  bool at_front(std::size_t x) const {
+    return x < space_.surface_count ? std::any_of(trial_[x].begin(), trial_[x].end(),
+                                                  [&](const LocalFunction& f) {
+                                                    return space_.functions[f.index].carries_opening();
+                                                  })
+                                    : trial_[x].size() < 3;
   }
 
-  // Functions of the panel are still to come: it has a corner on the front, or lies at the mouth.
-  bool at_front(std::size_t x) const { return x < space_.surface_count || trial_[x].size() < 3; }
-
-  std::vector<TestRows> rows_of_panel(std::size_t x) {
-    std::vector<TestRows> out;
+  void sum_up(std::size_t x, PanelSums& out) {
     if (memory_ && at_front(x)) made_[x] = PairMemory::row_of(space_.panels.size());
-    for (const LocalFunction& f : test_[x])
-      out.push_back({f, empty_rows()});
+    out.enriched.assign(part_ == Part::all ? space_.functions.size() : 0, {});
+    out.body.assign(body_.surface.node_count(), {});
+    out.tractions.clear();
     Pieces pieces;
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
       const bool on_surface = y < space_.surface_count;
@@ -163,9 +183,8 @@ class RowAssembler {
       }
       if (part_ == Part::all && !trial_[y].empty()) {
         const PairBlocks blocks(integrals, body_.m);
-        for (TestRows& t : out)
-          for (const LocalFunction& g : trial_[y])
-            t.rows.enriched.add(0, 3 * g.index, blocks.hypersingular(t.f.curl, g.curl));
+        for (const LocalFunction& g : trial_[y])
+          out.enriched[g.index].add(blocks, g.curl);
       }
       if (!on_surface) continue;
       if (space_.parent[y] != pieces.parent) {
@@ -175,7 +194,6 @@ class RowAssembler {
       add_piece(x, y, integrals, pieces);
     }
     add_body(pieces, out);
-    return out;
   }
 
   // Integrals of a panel with the pieces of one triangle of the body, on which its functions are the same.
@@ -252,22 +270,33 @@ class RowAssembler {
     return columns(body_.traction_unknown[t.index()], 0, source_of_triangle_[t.index()]);
   }
 
-  // Interaction with the body's own functions.
-  void add_body(const Pieces& pieces, std::vector<TestRows>& out) const {
+  Columns displacement_columns(NodeId node) const {
+    return columns(body_.displacement_unknown[node.index()], body_.tractions(),
+                   source_of_node_[node.index()]);
+  }
+
+  // The body's own functions on one of its triangles.
+  void add_body(const Pieces& pieces, PanelSums& out) const {
     if (!pieces.parent.valid()) return;
     const PairBlocks blocks(pieces.single_layer, body_.m);
     const auto& nodes = body_.surface.corners[pieces.parent];
-    for (int k = 0; k < 3; ++k) {
-      const std::size_t node = nodes[k].index();
-      const Columns to = columns(body_.displacement_unknown[node], body_.tractions(), source_of_node_[node]);
-      if (to.none()) continue;
-      for (TestRows& t : out)
-        to.add(t.rows, blocks.hypersingular(t.f.curl, body_.curls[pieces.parent.index()][k]));
-    }
-    const Columns to = traction_columns(pieces.parent);
-    if (to.none()) return;
-    for (TestRows& t : out)
-      to.add(t.rows, blocks.double_layer(t.f.curl, weigh(pieces.double_layer, t.f.w)).transpose());
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!displacement_columns(nodes[k]).none())
+        out.body[nodes[k].index()].add(blocks, body_.curls[pieces.parent.index()][k]);
+    if (!traction_columns(pieces.parent).none())
+      out.tractions.push_back({pieces.parent, blocks, pieces.double_layer});
+  }
+
+  // What a function has on one panel of its support.
+  void add_panel(const PanelSums& sums, const LocalFunction& f, EnrichmentRows& rows) const {
+    for (std::size_t g = 0; g < sums.enriched.size(); ++g)
+      if (rank_[g] <= f.index) rows.enriched.add(0, 3 * g, sums.enriched[g].tested(f.curl));
+    for (std::size_t node = 0; node < sums.body.size(); ++node)
+      if (const Columns to = displacement_columns(NodeId(node)); !to.none())
+        to.add(rows, sums.body[node].tested(f.curl));
+    for (const TractionPair& t : sums.tractions)
+      traction_columns(t.parent).add(rows,
+                                     t.blocks.double_layer(f.curl, weigh(t.double_layer, f.w)).transpose());
   }
 
   const BodyDiscretisation& body_;
@@ -280,6 +309,7 @@ class RowAssembler {
   std::vector<int> source_of_triangle_, source_of_node_;  // −1: none
   std::vector<std::array<Vec3, 3>> curls_;
   PanelFunctions trial_, test_;
+  std::vector<std::size_t> rank_;  // per function: its place in `wanted`, 0 if it is not
   std::vector<std::size_t> test_panels_;
   std::vector<EnrichmentRows> rows_;
   std::vector<long> test_index_;

@@ -15,9 +15,11 @@ namespace conchoid {
 ///   f_a = ½ (M g_N)_a − K_aᵀ g_N − D_a g_D + ∫ φ_a (σ° n)                              docs/theory.md (B7)
 /// whose middle terms are −(sources · prescribed values); the others are enrichment_load().
 struct EnrichmentRows {
-  DenseMatrix body;      ///< 3 × body unknowns: K_aᵀ against the tractions, D against the displacements
-  DenseMatrix enriched;  ///< 3 × 3·functions: D against all enrichment functions
-  DenseMatrix sources;   ///< 3 × 3·sources: K_aᵀ of prescribed tractions, D of prescribed displacements
+  DenseMatrix body;  ///< 3 × body unknowns: K_aᵀ against the tractions, D against the displacements
+  DenseMatrix
+      enriched;  ///< 3 × 3·functions: D against the enrichment functions; none for those that come after it in
+                 ///< `wanted`, as D is symmetric
+  DenseMatrix sources;  ///< 3 × 3·sources: K_aᵀ of prescribed tractions, D of prescribed displacements
 };
 
 /// Rows of the functions listed in `wanted` (indices into space.functions), in that order.

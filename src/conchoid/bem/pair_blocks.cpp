@@ -32,21 +32,34 @@ PairBlocks::PairBlocks(const SingleLayerPair& s, const ElasticConstants& m) : mu
   curl_kernel_ = mu_ / (2 * pi) * s.laplace * Mat3::Identity() - 4 * mu_ * mu_ * kelvin_;
 }
 
-Mat3 PairBlocks::hypersingular(const Vec3& b, const Vec3& a) const {
-  const double ab = a.dot(b);
-  // μ/4π Σ_k ∂_Sk ∂_Sk  +  (Mv)ᵀ [μ/2πR − 4μ²U] (Mu)  +  μ/4π Σ_k (M_kj v_i)(M_ki u_j)
-  Mat3 block;
-  Mat3 left;
-  for (int q = 0; q < 3; ++q)
-    left.col(q) = curl_kernel_.col(q).cross(b);
-  for (int p = 0; p < 3; ++p) {
-    const double r0 = left(p, 0), r1 = left(p, 1), r2 = left(p, 2), s = laplace_;
-    block(p, 0) = (r1 * a.z() - r2 * a.y()) - (s * b[p]) * a[0];
-    block(p, 1) = (r2 * a.x() - r0 * a.z()) - (s * b[p]) * a[1];
-    block(p, 2) = (r0 * a.y() - r1 * a.x()) - (s * b[p]) * a[2];
+// μ/4π Σ_k ∂_Sk ∂_Sk  +  (Mv)ᵀ [μ/2πR − 4μ²U] (Mu)  +  μ/4π Σ_k (M_kj v_i)(M_ki u_j), with M u = [a]× and M v = [b]×
+void PairBlocks::TrialSum::add(const PairBlocks& pair, const Vec3& a) {
+  const Mat3& C = pair.curl_kernel_;
+  Mat3& sum = curl_kernel_;
+  for (int j = 0; j < 3; ++j) {
+    sum(j, 0) += C(j, 1) * a.z() - C(j, 2) * a.y();
+    sum(j, 1) += C(j, 2) * a.x() - C(j, 0) * a.z();
+    sum(j, 2) += C(j, 0) * a.y() - C(j, 1) * a.x();
   }
-  block.diagonal().array() += 2 * laplace_ * ab;
+  laplace_ += pair.laplace_ * a;
+}
+
+Mat3 PairBlocks::TrialSum::tested(const Vec3& b) const {
+  const Mat3& s = curl_kernel_;
+  Mat3 block;
+  for (int q = 0; q < 3; ++q) {
+    block(0, q) = (s(1, q) * b.z() - s(2, q) * b.y()) - b.x() * laplace_[q];
+    block(1, q) = (s(2, q) * b.x() - s(0, q) * b.z()) - b.y() * laplace_[q];
+    block(2, q) = (s(0, q) * b.y() - s(1, q) * b.x()) - b.z() * laplace_[q];
+  }
+  block.diagonal().array() += 2 * b.dot(laplace_);
   return block;
+}
+
+Mat3 PairBlocks::hypersingular(const Vec3& b, const Vec3& a) const {
+  TrialSum sum;
+  sum.add(*this, a);
+  return sum.tested(b);
 }
 
 Mat3 PairBlocks::double_layer(const Vec3& a, double dl) const {

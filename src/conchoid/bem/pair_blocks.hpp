@@ -25,6 +25,20 @@ class PairBlocks {
   ///                                                                                   docs/theory.md (B4)
   Mat3 hypersingular(const Vec3& b, const Vec3& a) const;
 
+  /// Σ_Y of a trial function as it meets one test panel, before that has a function: <D φ_a e_q, φ_b e_p> is linear in
+  /// both curls, so that what Y leaves is twelve numbers, whatever it is tested with.
+  class TrialSum {
+   public:
+    /// Another panel Y of the trial function, where its curl is a.
+    void add(const PairBlocks& pair, const Vec3& a);
+    /// The block with the test function of curl b.
+    Mat3 tested(const Vec3& b) const;
+
+   private:
+    Mat3 curl_kernel_ = Mat3::Zero();  // rows × a
+    Vec3 laplace_ = Vec3::Zero();
+  };
+
   /// <K φ_a e_q, e_p>: constant test on X, trial on Y with curl a; dl is the Laplace double layer of φ_a,
   /// Σ φ_a(corner) DL.                                                                 docs/theory.md (B5)
   Mat3 double_layer(const Vec3& a, double dl) const;

@@ -78,6 +78,11 @@ std::vector<TiledCholesky::Tile> TiledCholesky::tiles() {
   return all;
 }
 
+double& TiledCholesky::entry(std::size_t row, std::size_t column) {
+  const std::size_t i = row / kTile, j = column / kTile;
+  return tile(i, j)[column % kTile * tile_rows(i) + row % kTile];
+}
+
 // Right-looking: column of tiles after column of tiles, each followed by the updates it causes.
 bool TiledCholesky::factor() {
   if (n_ == 0) return true;

@@ -28,6 +28,8 @@ class TiledCholesky {
   std::size_t bytes() const;
   /// Tiles of the lower triangle, to be filled with A (of those on the diagonal the lower triangle counts).
   std::vector<Tile> tiles();
+  /// One entry of A, row ≥ column.
+  double& entry(std::size_t row, std::size_t column);
 
   /// Replaces A by L. False when A is not positive definite; the tiles are then spoilt.
   [[nodiscard]] bool factor();

@@ -381,6 +381,19 @@ class Corefinement {
     return mouth;
   }
 
+  /// Whether a segment towards +x +y +z misses the box of a triangle, by more than round-off.
+  static bool is_beside_ray(const Vec3& from, const Vec3& to, const Points& T) {
+    constexpr double round_off = 1e-9;  // of the segment's length
+    double first = -round_off, last = 1 + round_off;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = T[0]->x[axis], b = T[1]->x[axis], c = T[2]->x[axis], length = to[axis] - from[axis];
+      if (std::max({a, b, c}) < from[axis]) return true;
+      first = std::max(first, (std::min({a, b, c}) - from[axis]) / length - round_off);
+      last = std::min(last, (std::max({a, b, c}) - from[axis]) / length + round_off);
+    }
+    return first > last;
+  }
+
   /// Parity of the surface triangles between a sheet node and a point far away.
   bool ray_says_inside(NodeId work_id) const {
     const PerturbedPoint& p = sheet_points_[work_id.index() - surface_.node_count()];
@@ -391,10 +404,7 @@ class Corefinement {
     bool inside = false;
     for (std::size_t t = 0; t < surface_.triangle_count(); ++t) {
       const Points T = surface_triangle(TriId(t));
-      bool before_start = true;  // the ray runs towards +x +y +z
-      for (int axis = 0; axis < 3 && before_start; ++axis)
-        before_start = T[0]->x[axis] >= p.x[axis] || T[1]->x[axis] >= p.x[axis] || T[2]->x[axis] >= p.x[axis];
-      if (!before_start) continue;
+      if (is_beside_ray(p.x, far.x, T)) continue;
       if (orientation(*T[0], *T[1], *T[2], p) != orientation(*T[0], *T[1], *T[2], far) && pierces(p, far, T))
         inside = !inside;
     }

@@ -201,6 +201,39 @@ bool triangles_at_edge_meet(const Vec3& a, const Vec3& b, const Vec3& c, const V
 
 }  // namespace
 
+namespace {
+
+// A tree of the triangles within the box of some faces: the others touch none of these.
+struct Neighbourhood {
+  std::vector<TriId> ids;  // empty: all
+  BoxTree tree;
+
+  Neighbourhood(const TriMesh& mesh, const std::vector<TriId>& faces)
+      : ids(within_box(mesh, faces)), tree(ids.empty() ? BoxTree(mesh) : BoxTree(triangles(mesh, ids))) {}
+  TriId id(TriId of_tree) const { return ids.empty() ? of_tree : ids[of_tree.index()]; }
+
+ private:
+  static std::vector<TriId> within_box(const TriMesh& mesh, const std::vector<TriId>& faces) {
+    std::vector<TriId> ids;
+    if (faces.size() == mesh.triangle_count()) return ids;
+    Box box = box_of(mesh.triangle(faces[0]));
+    for (const TriId t : faces)
+      box = united(box, box_of(mesh.triangle(t)));
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      if (overlap(box, box_of(mesh.triangle(TriId(t))))) ids.emplace_back(t);
+    return ids;
+  }
+  static TriMesh triangles(const TriMesh& mesh, const std::vector<TriId>& ids) {
+    TriMesh out;
+    out.positions = mesh.positions;
+    for (const TriId t : ids)
+      out.corners.push_back(mesh.corners[t]);
+    return out;
+  }
+};
+
+}  // namespace
+
 bool triangles_intersect(const TriMesh& mesh, TriId s, TriId t) {
   return triangles_intersect(mesh.positions, mesh.corners[s], mesh.corners[t]);
 }
@@ -242,7 +275,7 @@ std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, con
   constexpr std::size_t kGrain = 256, kGrainsAtOnce = 64;
   std::vector<std::pair<TriId, TriId>> found;
   if (faces.empty()) return found;
-  const BoxTree tree(mesh);
+  const Neighbourhood around(mesh, faces);
   std::vector<char> asked(mesh.triangle_count(), 0);
   for (const TriId t : faces)
     asked[t.index()] = 1;
@@ -257,7 +290,8 @@ std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, con
       for (std::size_t i = begin + from; i < begin + to; ++i) {
         const TriId s = faces[i];
         const auto first = static_cast<std::ptrdiff_t>(own.size());
-        tree.visit_overlapping(box_of(mesh.triangle(s)), [&](TriId t) {
+        around.tree.visit_overlapping(box_of(mesh.triangle(s)), [&](TriId near) {
+          const TriId t = around.id(near);
           if ((s < t || (t < s && !asked[t.index()])) && triangles_intersect(mesh, s, t))
             own.emplace_back(std::min(s, t), std::max(s, t));
         });

@@ -36,22 +36,28 @@ BoxTree::BoxTree(const TriMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Triangle x = mesh.triangle(TriId(t));
     boxes_.push_back(box_of(x));
-    items.push_back({boxes_.back(), x[0] + x[1] + x[2], t});
+    items.push_back({x[0] + x[1] + x[2], t});
   }
   if (items.empty()) return;
   branches_.resize(branches_of(items.size()));
   // The upper levels one after the other, what is below side by side.
   std::vector<Part> parts{{0, 0, items.size()}};
+  std::vector<std::size_t> upper;
   for (std::size_t level = 0; level < levels_in_turn && parts.size() < items.size() / grain; ++level) {
     std::vector<Part> below;
     for (const Part& part : parts)
-      if (Part left, right; halve(items, part, left, right)) below.insert(below.end(), {left, right});
+      if (Part left, right; halve(items, part, left, right)) {
+        below.insert(below.end(), {left, right});
+        upper.push_back(part.branch);
+      }
     parts = std::move(below);
   }
   parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       build(items, parts[i]);
   });
+  for (std::size_t i = upper.size(); i-- > 0;)
+    close(upper[i]);
   order_.reserve(items.size());
   for (const Item& item : items)
     order_.push_back(item.triangle);
@@ -59,14 +65,22 @@ BoxTree::BoxTree(const TriMesh& mesh) {
 
 bool BoxTree::halve(std::vector<Item>& items, const Part& part, Part& left, Part& right) {
   const auto [id, begin, end] = part;
-  Box box = items[begin].box;
-  for (std::size_t i = begin + 1; i < end; ++i)
-    box = united(box, items[i].box);
-  branches_[id] = {box, begin, end, 0, 0};
-  if (end - begin <= leaf_size) return false;
-
+  Branch& branch = branches_[id];
+  branch.begin = begin;
+  branch.end = end;
+  if (end - begin <= leaf_size) {
+    branch.box = boxes_[items[begin].triangle];
+    for (std::size_t i = begin + 1; i < end; ++i)
+      branch.box = united(branch.box, boxes_[items[i].triangle]);
+    return false;
+  }
+  Vec3 low = items[begin].center, high = low;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    low = low.cwiseMin(items[i].center);
+    high = high.cwiseMax(items[i].center);
+  }
   Eigen::Index axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
+  (high - low).maxCoeff(&axis);
   const std::size_t middle = begin + (end - begin) / 2;
   const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [axis](const Item& p, const Item& q) {
@@ -75,8 +89,8 @@ bool BoxTree::halve(std::vector<Item>& items, const Part& part, Part& left, Part
   });
   left = {id + 1, begin, middle};
   right = {id + 1 + branches_of(middle - begin), middle, end};
-  branches_[id].left = left.branch;
-  branches_[id].right = right.branch;
+  branch.left = left.branch;
+  branch.right = right.branch;
   return true;
 }
 
@@ -86,6 +100,12 @@ void BoxTree::build(std::vector<Item>& items, const Part& part) {
   if (!halve(items, part, left, right)) return;
   build(items, left);
   build(items, right);
+  close(part.branch);
+}
+
+void BoxTree::close(std::size_t branch) {
+  Branch& b = branches_[branch];
+  b.box = united(branches_[b.left].box, branches_[b.right].box);
 }
 
 std::vector<TriId> BoxTree::overlapping(const Box& box) const {

@@ -10,7 +10,7 @@
 namespace conchoid {
 
 /// Binary tree of axis-aligned boxes around the triangles of a mesh, each set of them halved at the median of
-/// the centroids along the longest side of its box. Finds the triangles near a place in about log n steps.
+/// the centroids along the axis on which these lie farthest apart. Finds the triangles near a place in about log n steps.
 class BoxTree {
  public:
   explicit BoxTree(const TriMesh& mesh);
@@ -43,16 +43,17 @@ class BoxTree {
 
   /// A triangle on its way to its place: all that halving asks of it, side by side in memory.
   struct Item {
-    Box box;
     Vec3 center;  ///< times three
     std::size_t triangle;
   };
   struct Part {
     std::size_t branch, begin, end;
   };
-  /// Halves the items of a part, its branch given; false if they stay together.
+  /// Halves the items of a part; false if they stay together, in a branch that then has its box.
   bool halve(std::vector<Item>& items, const Part& part, Part& left, Part& right);
   void build(std::vector<Item>& items, const Part& part);
+  /// The box of a branch that has been halved.
+  void close(std::size_t branch);
 
   std::vector<Box> boxes_;  ///< per triangle
   std::vector<std::size_t> order_;

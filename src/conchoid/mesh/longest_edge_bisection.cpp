@@ -31,7 +31,11 @@ int longest_edge(const IdVector<NodeId, Vec3>& positions, const Corners& c) {
 class Bisection {
  public:
   explicit Bisection(const TriMesh& mesh)
-      : out_{mesh, std::vector<TriId>(mesh.triangle_count())}, fine_(mesh.triangle_count(), 0) {
+      : out_{mesh,
+             std::vector<TriId>(mesh.triangle_count()),
+             {},
+             std::vector<std::size_t>(mesh.triangle_count(), kNoHalf)},
+        fine_(mesh.triangle_count(), 0) {
     for (std::size_t t = 0; t < out_.parent.size(); ++t)
       out_.parent[t] = TriId(t);
   }
@@ -99,32 +103,42 @@ class Bisection {
   }
 
   void write_pieces() {
-    const DividedMesh whole{{{}, std::move(out_.mesh.corners)}, std::move(out_.parent)};
+    const DividedMesh whole{
+        {{}, std::move(out_.mesh.corners)}, std::move(out_.parent), {}, std::move(out_.half)};
     const std::vector<char> fine = std::move(fine_);
     out_.mesh.corners.clear();
     out_.parent.clear();
+    out_.half.clear();
     fine_.clear();
     for (std::size_t t = 0; t < whole.parent.size(); ++t) {
       from_ = whole.parent[t];
-      add_pieces(whole.mesh.corners[TriId(t)], middles_[t]);
+      add_pieces(whole.mesh.corners[TriId(t)], middles_[t], whole.half[t]);
       if (out_.parent.size() == fine_.size() + 1) fine_.push_back(fine[t]);
       fine_.resize(out_.parent.size(), 0);
     }
   }
 
   // At the longest divided edge; the pieces may have another one of them each.
-  void add_pieces(const Corners& c, const Middles& middle) {
+  void add_pieces(const Corners c, const Middles& middle, std::size_t half) {
     int k = longest_edge(out_.mesh.positions, c);
     for (int i = 0; i < 2 && !middle[k].valid(); ++i)
       k = (k + 1) % 3;
     if (!middle[k].valid()) {
       out_.mesh.corners.push_back(c);
       out_.parent.push_back(from_);
+      out_.half.push_back(half);
       return;
     }
     const int next = (k + 1) % 3, last = (k + 2) % 3;
-    add_pieces({c[last], c[k], middle[k]}, {middle[last], NodeId(), NodeId()});
-    add_pieces({c[next], c[last], middle[k]}, {middle[next], NodeId(), NodeId()});
+    const auto at = [&](int i) {
+      return half == kNoHalf ? Vec3(Vec3::Unit(i)) : out_.halves[half].in_parent[static_cast<std::size_t>(i)];
+    };
+    const Vec3 in_middle = 0.5 * (at(k) + at(next));
+    const std::size_t first = out_.halves.size();
+    out_.halves.push_back({{c[last], c[k], middle[k]}, {at(last), at(k), in_middle}, half});
+    out_.halves.push_back({{c[next], c[last], middle[k]}, {at(next), at(last), in_middle}, half});
+    add_pieces(out_.halves[first].corners, {middle[last], NodeId(), NodeId()}, first);
+    add_pieces(out_.halves[first + 1].corners, {middle[next], NodeId(), NodeId()}, first + 1);
   }
 
   DividedMesh out_;

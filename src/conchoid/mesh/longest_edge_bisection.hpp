@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -7,10 +9,22 @@
 
 namespace conchoid {
 
+/// A triangle that came from another one when that was divided in two.
+struct HalfTriangle {
+  std::array<NodeId, 3> corners;  ///< the middle of the edge that was divided last
+  std::array<Vec3, 3>
+      in_parent;      ///< the corner functions of the first mesh's triangle at these corners, exact
+  std::size_t whole;  ///< the half that was divided, or kNoHalf: a triangle of the first mesh was
+};
+inline constexpr std::size_t kNoHalf = static_cast<std::size_t>(-1);
+
 /// A mesh whose triangles have been divided, and which of the first one each came from.
 struct DividedMesh {
   TriMesh mesh;  ///< the first one's nodes keep their ids and bits; pieces of a triangle follow one another
   std::vector<TriId> parent;
+  std::vector<HalfTriangle>
+      halves;  ///< all there ever were, those that were divided again before their own halves
+  std::vector<std::size_t> half;  ///< per triangle: which half it is; kNoHalf where nothing was divided
 };
 
 /// Divides triangles at their longest edges until none is too coarse, and no more than conformity asks for (Rivara

@@ -68,35 +68,49 @@ CONCHOID_WIDE_CLONES void sum_single_layer(const Coordinates& x, const RuleArray
     add_lanes(*sums[k], result[k]);
 }
 
-/// Heights of the points of X above y0, the corner 0 of Y.
-CONCHOID_WIDE_CLONES void sum_double_layer(const Coordinates& x, const RuleArrays& x_rule,
-                                           const Coordinates& y, const RuleArrays& y_rule,
-                                           const double (&normal)[3], double (&result)[3]) {
-  alignas(32) double x_at[3][max_points], y_at[3][max_points], height[max_points];
-  place(x, x_rule, x_at);
-  place(y, y_rule, y_at);
+/// Heights of the points of X above y0, the corner 0 of Y, times their weights.
+CONCHOID_INTO_CLONES void weigh_heights(const double (&x_at)[3][max_points], const RuleArrays& x_rule,
+                                        const Coordinates& y, const double (&normal)[3],
+                                        double (&height)[max_points]) {
   for (int j = 0; j < x_rule.padded / lanes; ++j)
     reinterpret_cast<Lanes*>(height)[j] =
         reinterpret_cast<const Lanes*>(x_rule.weight)[j] *
         (normal[0] * (reinterpret_cast<const Lanes*>(x_at[0])[j] - y.of[0][0]) +
          normal[1] * (reinterpret_cast<const Lanes*>(x_at[1])[j] - y.of[1][0]) +
          normal[2] * (reinterpret_cast<const Lanes*>(x_at[2])[j] - y.of[2][0]));
-  const auto *y0 = reinterpret_cast<const Lanes*>(y_at[0]), *y1 = reinterpret_cast<const Lanes*>(y_at[1]),
-             *y2 = reinterpret_cast<const Lanes*>(y_at[2]),
-             *wy = reinterpret_cast<const Lanes*>(y_rule.weight);
+}
+
+/// w/R³ between one point and block j of the others.
+CONCHOID_INTO_CLONES void weigh_cubes(const double (&point)[3], const double (&at)[3][max_points], int j,
+                                      const Lanes& w, Lanes& result) {
+  const Lanes r0 = point[0] - reinterpret_cast<const Lanes*>(at[0])[j],
+              r1 = point[1] - reinterpret_cast<const Lanes*>(at[1])[j],
+              r2 = point[2] - reinterpret_cast<const Lanes*>(at[2])[j];
+  Lanes r = r0 * r0 + r1 * r1 + r2 * r2;
+  const Lanes inverse_square = 1 / r;
+  take_root(r);
+  result = w * r * (inverse_square * inverse_square);
+}
+
+/// The points of Y side by side.
+CONCHOID_WIDE_CLONES void sum_double_layer_along_y(const Coordinates& x, const RuleArrays& x_rule,
+                                                   const Coordinates& y, const RuleArrays& y_rule,
+                                                   const double (&normal)[3], double (&result)[3]) {
+  alignas(32) double x_at[3][max_points], y_at[3][max_points], height[max_points];
+  place(x, x_rule, x_at);
+  place(y, y_rule, y_at);
+  weigh_heights(x_at, x_rule, y, normal, height);
   const auto *l0 = reinterpret_cast<const Lanes*>(y_rule.l[0]),
              *l1 = reinterpret_cast<const Lanes*>(y_rule.l[1]),
-             *l2 = reinterpret_cast<const Lanes*>(y_rule.l[2]);
+             *l2 = reinterpret_cast<const Lanes*>(y_rule.l[2]),
+             *wy = reinterpret_cast<const Lanes*>(y_rule.weight);
   Lanes s0{}, s1{}, s2{};
   const int blocks = y_rule.padded / lanes;
   for (int i = 0; i < x_rule.count; ++i) {
-    const double x0 = x_at[0][i], x1 = x_at[1][i], x2 = x_at[2][i], h = height[i];
+    const double point[3] = {x_at[0][i], x_at[1][i], x_at[2][i]};
     for (int j = 0; j < blocks; ++j) {
-      const Lanes r0 = x0 - y0[j], r1 = x1 - y1[j], r2 = x2 - y2[j];
-      Lanes r = r0 * r0 + r1 * r1 + r2 * r2;
-      const Lanes inverse_square = 1 / r;
-      take_root(r);
-      const Lanes k = h * wy[j] * r * (inverse_square * inverse_square);
+      Lanes k;
+      weigh_cubes(point, y_at, j, height[i] * wy[j], k);
       s0 += k * l0[j];
       s1 += k * l1[j];
       s2 += k * l2[j];
@@ -105,6 +119,39 @@ CONCHOID_WIDE_CLONES void sum_double_layer(const Coordinates& x, const RuleArray
   add_lanes(s0, result[0]);
   add_lanes(s1, result[1]);
   add_lanes(s2, result[2]);
+}
+
+/// The points of X side by side.
+CONCHOID_WIDE_CLONES void sum_double_layer_along_x(const Coordinates& x, const RuleArrays& x_rule,
+                                                   const Coordinates& y, const RuleArrays& y_rule,
+                                                   const double (&normal)[3], double (&result)[3]) {
+  alignas(32) double x_at[3][max_points], y_at[3][max_points], height[max_points];
+  place(x, x_rule, x_at);
+  place(y, y_rule, y_at);
+  weigh_heights(x_at, x_rule, y, normal, height);
+  Lanes s0{}, s1{}, s2{};
+  const int blocks = x_rule.padded / lanes;
+  for (int i = 0; i < y_rule.count; ++i) {
+    const double point[3] = {y_at[0][i], y_at[1][i], y_at[2][i]};
+    Lanes sum{};
+    for (int j = 0; j < blocks; ++j) {
+      Lanes k;
+      weigh_cubes(point, x_at, j, reinterpret_cast<const Lanes*>(height)[j], k);
+      sum += k;
+    }
+    const Lanes w = y_rule.weight[i] * sum;
+    s0 += y_rule.l[0][i] * w;
+    s1 += y_rule.l[1][i] * w;
+    s2 += y_rule.l[2][i] * w;
+  }
+  add_lanes(s0, result[0]);
+  add_lanes(s1, result[1]);
+  add_lanes(s2, result[2]);
+}
+
+/// Whether fewer lanes are empty where the points of `a` are side by side, not those of `b`.
+bool fills_lanes(const RuleArrays& a, const RuleArrays& b) {
+  return b.count * a.padded < a.count * b.padded;
 }
 
 }  // namespace
@@ -117,15 +164,22 @@ FarDegrees far_degrees(Layer layer, const Panel& x, const Panel& y, double toler
 
 Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees) {
   double sum[7];
-  sum_single_layer(Coordinates(x.x), rule_arrays(degrees.x), Coordinates(y.x), rule_arrays(degrees.y), sum);
+  const RuleArrays &x_rule = rule_arrays(degrees.x), &y_rule = rule_arrays(degrees.y);
+  if (fills_lanes(x_rule, y_rule))
+    sum_single_layer(Coordinates(y.x), y_rule, Coordinates(x.x), x_rule, sum);
+  else
+    sum_single_layer(Coordinates(x.x), x_rule, Coordinates(y.x), y_rule, sum);
   return x.area * y.area * Eigen::Map<const Family>(sum);
 }
 
 Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees) {
   double sum[3];
   const double normal[3] = {y.normal[0], y.normal[1], y.normal[2]};
-  sum_double_layer(Coordinates(x.x), rule_arrays(degrees.x), Coordinates(y.x), rule_arrays(degrees.y), normal,
-                   sum);
+  const RuleArrays &x_rule = rule_arrays(degrees.x), &y_rule = rule_arrays(degrees.y);
+  if (fills_lanes(x_rule, y_rule))
+    sum_double_layer_along_x(Coordinates(x.x), x_rule, Coordinates(y.x), y_rule, normal, sum);
+  else
+    sum_double_layer_along_y(Coordinates(x.x), x_rule, Coordinates(y.x), y_rule, normal, sum);
   return x.area * y.area * Eigen::Map<const Vec3>(sum);
 }
 

@@ -62,6 +62,13 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
   return far ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
 }
 
+/// X lies in the plane of Y, up to rounding.
+bool in_one_plane(const Panel& x, const Panel& y) {
+  const double noise = plane_noise(x, y);
+  return std::all_of(x.x.begin(), x.x.end(),
+                     [&](const Vec3& corner) { return std::abs(y.normal.dot(corner - y.x[0])) <= noise; });
+}
+
 Vec3 touching_double_layer(const TouchingPair& pair, int shared, double tolerance) {
   if (coplanar(pair.x, PanelPotential(pair.y, pair.normal_y, pair.noise), pair.noise)) return Vec3::Zero();
   const Vec3 turned =
@@ -167,6 +174,7 @@ DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) con
   const int shared = shared_corners(x, y).count;
   if (shared == 3) return {};
   if (shared > 0) return to_pair(touching_double_layer(touching_pair(x, y), shared, tolerance_));
+  if (in_one_plane(x, y)) return {};
   const FarDegrees degrees = far_degrees(Layer::dbl, x, y, tolerance_);
   return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
 }

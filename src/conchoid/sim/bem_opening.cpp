@@ -13,13 +13,13 @@ SifSettings sif_settings(const RunSpec& run) {
 BemOpening::BemOpening(std::shared_ptr<const BodyOperator> body, LoadCase load, const SifSettings& sif)
     : body_(std::move(body), std::move(load)), m_(body_.body().material()), sif_(sif) {}
 
-void BemOpening::solve(const CutComplex& cut) {
-  body_.set_crack(cut);
+void BemOpening::solve(const CutComplex& cut, const CutDivision& division) {
+  body_.set_crack(cut, division);
   body_.solve();
 }
 
 std::vector<FrontOpening> BemOpening::open(const CrackState& crack) {
-  solve(crack.cut);
+  solve(crack.cut, crack.division);
   // Per node of the cut complex; zero at points that no front of the trimmed crack goes through.
   IdVector<NodeId, Vec3> intensity(crack.cut.positions.size(), Vec3::Zero());
   for (const Front& front : crack.fronts) {

@@ -1,6 +1,7 @@
 #include "conchoid/sim/crack_state.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -21,6 +22,8 @@ constexpr double kNothing = 1e-9;  // below it a piece has no area
 // from it: K at the ends of a mouth is within a few hundredths then (docs/verification.md).
 constexpr double kMouthEdge = 1;
 constexpr double kMouthEdgeGrowth = 1;
+// × r̄, displacements of a sheet that leaves slivers where it is.
+constexpr std::array<double, 8> kShifts{0.0, 0.01, -0.013, 0.024, -0.031, 0.045, -0.057, 0.08};
 constexpr double kEqualLength = 1e-6;  // × an edge: lengths that round-off alone tells apart
 
 // Distance of x behind the front at node a: across the front's tangent.
@@ -75,21 +78,34 @@ DividedMesh divide_near(const TriMesh& surface, const TriMesh& sheet, double cra
   });
 }
 
+DividedMesh undivided(const TriMesh& surface) {
+  return bisect_longest_edges(surface, [](const Triangle&) { return false; });
+}
+
 // As if the undivided surface had been cut: the nodes of its divisions are none of its own.
-void belong_to(const TriMesh& surface, const std::vector<TriId>& parent, CutComplex& cut) {
+CutDivision belong_to(const TriMesh& surface, DividedMesh divided, CutComplex& cut) {
+  CutDivision division{std::move(divided.halves), {}};
   cut.surface_node_count = surface.node_count();
-  for (TriId& t : cut.surface_parent)
-    t = parent[t.index()];
+  for (TriId& t : cut.surface_parent) {
+    division.half.push_back(divided.half[t.index()]);
+    t = divided.parent[t.index()];
+  }
+  return division;
 }
 
 // Where the sheet runs exactly through nodes of the surface, or along one of its triangles, the pieces
 // degenerate. The boundary elements then see it displaced along its normal by a hundredth of a crack edge or
-// a few, the first that leaves no sliver.
-CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double crack_edge) {
+// a few, the first that leaves no sliver; the one before is tried before all others.
+void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& sheet, double crack_edge,
+                      NearCracks near) {
   CutComplex best;
-  double best_piece = -1;
-  const DividedMesh divided = divide_near(surface, sheet, crack_edge);
-  for (double shift : {0.0, 0.01, -0.013, 0.024, -0.031, 0.045, -0.057, 0.08}) {
+  double best_piece = -1, best_shift = 0;
+  DividedMesh divided =
+      near == NearCracks::divided ? divide_near(surface, sheet, crack_edge) : undivided(surface);
+  std::vector<double> shifts{state.displacement};
+  for (const double shift : kShifts)
+    if (shift != state.displacement) shifts.push_back(shift);
+  for (const double shift : shifts) {
     TriMesh moved = sheet;
     if (shift != 0) {
       const IdVector<NodeId, Vec3> normals = unit_node_normals(sheet);
@@ -98,22 +114,24 @@ CutComplex cut_for_elements(const TriMesh& surface, const TriMesh& sheet, double
     }
     try {
       CutComplex cut = corefine(divided.mesh, moved, {kMouthMerge});
-      belong_to(surface, divided.parent, cut);
       const double piece = worst_piece(cut);
       if (piece > best_piece) {
         best = std::move(cut);
         best_piece = piece;
+        best_shift = shift;
       }
     } catch (const ComputationError&) {  // mouth curves that cannot be told apart: the next one may do
       continue;
     }
-    if (best_piece > kSliver) return best;
+    if (best_piece > kSliver) break;
   }
   if (!(best_piece > kNothing))
     throw SingularSystem(
         "the crack runs along the surface mesh so closely that no boundary elements fit between; change "
         "resolution.crack or remesh the body");
-  return best;
+  state.cut = std::move(best);
+  state.division = belong_to(surface, std::move(divided), state.cut);
+  state.displacement = best_shift;
 }
 
 // Area vectors around the nodes of the cut's sheet, in the planes of the triangles it was cut from: at the mouth little
@@ -132,10 +150,13 @@ IdVector<NodeId, Vec3> area_vectors_of_whole_sheet(const CutComplex& cut, const 
 
 }  // namespace
 
-void update_crack(CrackState& state, const TriMesh& surface, double crack_edge) {
+void update_crack(CrackState& state, const TriMesh& surface, double crack_edge, NearCracks near) {
   const bool infinite = surface.corners.empty();
   const TriMesh sheet = infinite ? state.sheet.mesh : embedded_part(state.sheet.mesh);
-  state.cut = infinite ? uncut_sheet(sheet) : cut_for_elements(surface, sheet, crack_edge);
+  if (infinite)
+    state.cut = uncut_sheet(sheet);
+  else
+    cut_for_elements(state, surface, sheet, crack_edge, near);
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth,
                              state.sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets,

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "conchoid/bem/enrichment.hpp"
 #include "conchoid/crack/front/front.hpp"
 #include "conchoid/crack/front/sheet.hpp"
 #include "conchoid/intersect/corefine.hpp"
@@ -26,12 +27,19 @@ struct CrackState {
   IdVector<NodeId, NodeId>
       node_in_cut;                 ///< per sheet node: its node in `cut`; invalid outside and on the surface
   std::vector<FrontPoint> points;  ///< all coarse front nodes inside
+  CutDivision division = {};       ///< of the surface before the cut
+  double displacement = 0;         ///< × r̄, of the sheet along its normals as it was cut
 };
 
+/// Whether the surface is divided near the cracks before it is cut: only a solution by boundary elements needs that.
+enum class NearCracks : unsigned char { divided, as_it_is };
+
 /// Trims the sheet by the surface (empty: infinite body), marks its front nodes active or outside, lists the
-/// points inside.
+/// points inside. What was displaced for the last cut is tried with the same displacement first, so that the
+/// elements which stay where they are stay the same to the last bit.
 /// @param crack_edge  r̄ [m]
-void update_crack(CrackState& state, const TriMesh& surface, double crack_edge);
+void update_crack(CrackState& state, const TriMesh& surface, double crack_edge,
+                  NearCracks near = NearCracks::divided);
 
 /// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last
 /// ligaments at corners, narrower than a triangle. They have no node inside to read SIFs at, and run through.

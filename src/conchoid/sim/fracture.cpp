@@ -127,6 +127,7 @@ struct Fracture::State {
   double part_volume = 0;                              // of what has come off when it was not cut [m³]
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
+  bool solves_next() const { return !predictor || predictor->solves(crack.sheet.frame); }
   bool solved() const { return predictor ? predictor->solved() : carried == 0; }
   // A prediction knows nothing of cracks that start later, unless it is solved now and then.
   bool may_start_cracks() const { return solved() && (!predictor || settings.solve_every > 0); }
@@ -215,7 +216,7 @@ void Fracture::State::start_cracks(StepReport& report) try {
   for (int i = 0; i < settings.max_cracks_per_frame && new_cracks < settings.max_cracks; ++i) {
     if (i > 0) {
       update_crack(crack, body->surface, body->crack_edge);
-      bem.solve(crack.cut);
+      bem.solve(crack.cut, crack.division);
     }
     if (!start_crack(report)) return;
   }
@@ -325,7 +326,9 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
     advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,
                    visible ? &*visible : nullptr);
   }
-  if (!steps.empty() || new_crack) update_crack(crack, body->surface, body->crack_edge);
+  if (!steps.empty() || new_crack)
+    update_crack(crack, body->surface, body->crack_edge,
+                 solves_next() ? NearCracks::divided : NearCracks::as_it_is);
   report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
   const bool grown = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count() > before;

@@ -34,6 +34,8 @@ class OpeningSource {
   virtual std::vector<FrontOpening> open(const CrackState& crack) = 0;
   /// Whether the last open() solved the boundary elements for the crack as it stood.
   virtual bool solved() const = 0;
+  /// Whether open() is going to, for a crack that has grown so many times (CrackSheet::frame).
+  virtual bool solves(int frame) const = 0;
 };
 
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.
@@ -43,6 +45,7 @@ class BemOpening : public OpeningSource {
   std::string name() const override { return "bem"; }
   std::vector<FrontOpening> open(const CrackState& crack) override;
   bool solved() const override { return true; }
+  bool solves(int /*frame*/) const override { return true; }
   /// Replaces the load; counts from the next solve() or open() on.
   void set_load(LoadCase load) {
     body_.set_load(std::move(load));
@@ -55,7 +58,7 @@ class BemOpening : public OpeningSource {
   /// Where the rows of the cracks are kept (bem/row_store.hpp); must outlive the source.
   void keep_rows(RowStore* store) { body_.keep_rows(store); }
   /// Solves without asking for SIFs (no crack yet).
-  void solve(const CutComplex& cut);
+  void solve(const CutComplex& cut, const CutDivision& division = {});
 
  private:
   CrackedBody body_;

@@ -14,7 +14,7 @@ PredictedOpening::PredictedOpening(const PredictionContext& c)
 
 bool PredictedOpening::solve(const CrackState& crack, std::vector<FrontOpening>& out) {
   const int frame = crack.sheet.frame;  // 0 for the first
-  if (frame > 0 && (solve_every_ == 0 || frame % solve_every_ != 0)) return false;
+  if (!solves(frame)) return false;
   try {
     out = bem_.open(crack);
     return true;

@@ -20,6 +20,7 @@ class PredictedOpening : public OpeningSource {
  public:
   std::vector<FrontOpening> open(const CrackState& crack) final;
   bool solved() const final { return solved_; }
+  bool solves(int frame) const final { return frame == 0 || (solve_every_ > 0 && frame % solve_every_ == 0); }
 
  protected:
   explicit PredictedOpening(const PredictionContext& context);

@@ -26,7 +26,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 void solve(BemOpening& bem, const CrackState& crack) {
-  bem.solve(crack.cut);
+  bem.solve(crack.cut, crack.division);
   if (const ContactReport& contact = bem.body().contact(); !contact.converged)
     warning(contact_warning(contact));
 }
