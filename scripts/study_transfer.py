@@ -19,7 +19,7 @@ LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], 
 TRAINING = ["--features", "versatile", "--trees", "30", "--depth", "13", "--leaf", "20"]
 ARMADILLO = """[body]
 mesh = "{file}"
-remesh = 500
+remesh = 1100
 scale = 1.0
 [material]
 youngs_modulus = 3.1e9

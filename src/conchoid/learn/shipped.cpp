@@ -17,8 +17,8 @@ std::vector<fs::path> folders() {
   if (!error)
     for (const char* from_program : {"databases", CONCHOID_DATABASES_FROM_PROGRAM})
       all.push_back((program.parent_path() / from_program).lexically_normal());
-  all.emplace_back(CONCHOID_INSTALLED_DATABASES);
   all.emplace_back(CONCHOID_SOURCE_DATABASES);
+  all.emplace_back(CONCHOID_INSTALLED_DATABASES);
   return all;
 }
 

@@ -16,7 +16,7 @@ const std::vector<std::string_view>& shipped_names();
 /// What a method takes where no database is named.
 inline constexpr std::string_view kStandardDatabase = "versatile";
 
-/// The file of one: beside the program (build folder), installed (share/conchoid/databases), or in the source tree.
+/// The file of one: installed with the program (share/conchoid/databases), or in the source tree that it was built from.
 /// Throws InputError, naming the folders looked in, if it is in none of them.
 std::filesystem::path shipped_file(std::string_view name);
 
