@@ -45,6 +45,7 @@ void add_check(CLI::App& program, Invocation& invocation);
 void add_compare(CLI::App& program, Invocation& invocation);
 void add_database(CLI::App& program, Invocation& invocation);
 void add_forest(CLI::App& program, Invocation& invocation);
+void add_forest_evaluate(CLI::App& group, Invocation& invocation);
 void add_help(CLI::App& program, Invocation& invocation);
 void add_help_scene(CLI::App& program, Invocation& invocation);
 void add_materials(CLI::App& program, Invocation& invocation);

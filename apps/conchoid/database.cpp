@@ -18,7 +18,7 @@ struct DatabaseOptions {
   std::vector<std::string> files;
   std::string out, spec, cache, shard = "1/1";
   int runs = 0;  ///< 0: the specification's
-  bool resume = false;
+  bool resume = false, close = false;
 };
 
 /// "2/5": shard 2 of 5.
@@ -82,7 +82,8 @@ void generate_and_print(const DatabaseOptions& options, const CommonOptions& com
   generate_database(spec, {.out = options.out,
                            .shard = shard,
                            .shards = shards,
-                           .resume = options.resume,
+                           .resume = options.resume || options.close,
+                           .close = options.close,
                            .ranks = ranks ? &*ranks : nullptr});
   if (ranks && ranks->rank() > 0) return;
   const DatabaseInfo info = database_info(read_database(options.out));
@@ -106,6 +107,8 @@ void add_generate(CLI::App& group, Invocation& invocation, const std::shared_ptr
       ->capture_default_str();
   add_cache_option(*command, options->cache);
   command->add_flag("--resume", options->resume, "go on with what FILE and FILE.parts hold");
+  command->add_flag("--close", options->close,
+                    "make no more runs: write FILE from those that are finished, fewer than planned");
   command->footer(settings_text(true));
 }
 

@@ -16,8 +16,10 @@
 #include "conchoid/learn/database_provenance.hpp"
 #include "conchoid/learn/evaluate.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
+#include "conchoid/learn/shipped.hpp"
 #include "conchoid/learn/summary.hpp"
 #include "conchoid/sim/methods.hpp"
+#include "evaluation_text.hpp"
 
 namespace conchoid {
 namespace {
@@ -26,36 +28,23 @@ using nlohmann::ordered_json;
 constexpr std::array kModes = {"I", "II", "III"};
 
 struct ForestOptions {
-  std::string file, samples, out, model = "forest", features = "paper-4";
+  std::vector<std::string> samples;
+  std::string file, out, model = "forest", features = "paper-4";
   TrainingSettings settings;
   std::map<std::string, double> numbers;  ///< of all kinds, by name; given ones become settings.options
   std::map<std::string, CLI::Option*> given;
   double hold_out = 0;
+  TrainingChoice choice;
 };
 
-Evaluation evaluate_beside_baselines(const Regressor& model, const SampleSet& samples) {
-  return evaluate(model, samples, baseline_predictors());
-}
-
-std::string evaluation_text(const Evaluation& e) {
-  std::vector<Score> scores = {e.model};
-  scores.insert(scores.end(), e.baselines.begin(), e.baselines.end());
-  std::string text = fmt::format("{} samples of {} runs, {} in the range of the training\n", e.samples,
-                                 e.runs, e.model.in_range);
-  text += fmt::format("{:<12}{:<{}}root mean square error of Δu/r̄\nmode ", "", "R²", 13 * scores.size());
-  for (int part = 0; part < 2; ++part)
-    for (const Score& score : scores)
-      text += fmt::format(" {:>12}", score.name);
-  for (Eigen::Index mode = 0; mode < 3; ++mode) {
-    text += fmt::format("\n{:<5}", kModes[static_cast<std::size_t>(mode)]);
-    for (const Score& score : scores)
-      text += fmt::format(" {:12.4f}", score.accuracy.r2[mode]);
-    for (const Score& score : scores)
-      text += fmt::format(" {:12.4e}", score.accuracy.rmse[mode]);
-  }
-  if (e.seen_in_training)
-    text += "\nThese are the samples of the training: the figures of the " + e.model.name + " flatter it.";
-  return text;
+void require_classes(const std::vector<Database>& databases, const std::set<std::string>& classes) {
+  std::set<std::string> known;
+  for (const Database& database : databases)
+    known.merge(database.body_classes());
+  for (const std::string& name : classes)
+    if (!known.contains(name))
+      throw InputError(fmt::format("there are no bodies of the class \"{}\" in the samples; choose from {}",
+                                   name, fmt::join(known, ", ")));
 }
 
 std::string regressor_text(const Regressor& regressor) {
@@ -74,10 +63,17 @@ void train(ForestOptions options, const CommonOptions& common) {
   options.settings.features = feature_set_from_name(options.features);
   for (const auto& [name, option] : options.given)
     if (option->count() > 0) options.settings.options[name] = options.numbers[name];
-  const Database database = read_database(options.samples);
-  if (!database.complete())
-    warning(options.samples + ": some planned runs are missing; the training goes by what is there");
-  Split split{database.training_samples(), {}};
+  std::vector<Database> databases;
+  for (const std::string& file : options.samples) {
+    databases.push_back(read_database(file));
+    if (!databases.back().complete())
+      warning(file + ": some planned runs are missing; the training goes by what is there");
+  }
+  options.choice.end_game = learns_end_game(options.settings.features);
+  for (const auto* classes : {&options.choice.only, &options.choice.without})
+    require_classes(databases, *classes);
+  JoinedSamples joined = join_samples(databases, options.choice);
+  Split split{std::move(joined.samples), {}};
   if (options.hold_out > 0) split = split_by_run(split.training, options.hold_out, options.settings.seed);
 
   std::optional<Progress> progress;
@@ -86,15 +82,14 @@ void train(ForestOptions options, const CommonOptions& common) {
     if (!progress) progress.emplace("training", static_cast<std::size_t>(total));
     progress->advance();
   };
-  const std::unique_ptr<Regressor> model =
-      train_regressor(regressor_kind(options.model), split.training, options.settings,
-                      provenance_of(database.header), on_step);
+  const std::unique_ptr<Regressor> model = train_regressor(
+      regressor_kind(options.model), split.training, options.settings, std::move(joined.provenance), on_step);
   progress.reset();
   model->save(options.out);
 
   if (split.held_out.empty()) return print(common.json ? json_text(*model) : regressor_text(*model));
-  const Evaluation held_out = evaluate_beside_baselines(*model, split.held_out);
-  if (!common.json) return print(regressor_text(*model) + "\n\nheld out: " + evaluation_text(held_out));
+  const Evaluation held_out = evaluate(*model, split.held_out, baseline_predictors());
+  if (!common.json) return print(regressor_text(*model) + "\n\nheld out: " + one_step_text(held_out));
   ordered_json json = ordered_json::parse(json_text(*model));
   json["held_out"] = ordered_json::parse(json_text(held_out));
   print(json.dump());
@@ -102,7 +97,7 @@ void train(ForestOptions options, const CommonOptions& common) {
 
 /// Sizes of the trees and how often each feature decides, per mode. Throws InputError for what has no trees.
 ordered_json inspection(const std::string& file) {
-  const std::unique_ptr<Regressor> regressor = load_regressor(file);
+  const std::unique_ptr<Regressor> regressor = load_regressor(database_file(file));
   const auto* forest = dynamic_cast<const RegressionForest*>(regressor.get());
   if (!forest)
     throw InputError(fmt::format("{}: holds a {}, which has no trees to inspect; use `conchoid forest info`",
@@ -164,7 +159,7 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
     sets.emplace_back(name(set));
   for (const RegressorKind& kind : regressor_kinds())
     models.emplace_back(kind.name);
-  command->add_option("SAMPLES", options->samples, "database file (HDF5)")->required();
+  command->add_option("SAMPLES", options->samples, "database files (HDF5)")->required()->expected(1, 1000);
   command->add_option("--out", options->out, "file to write")->required();
   command->add_option("--model", options->model, "kind of regressor")
       ->check(CLI::IsMember(models))
@@ -181,6 +176,12 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
       ->add_option("--hold-out", options->hold_out, "share of the runs kept from training and evaluated on")
       ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str();
+  command
+      ->add_option("--only", options->choice.only,
+                   "classes of bodies to learn from, with commas between; without it all")
+      ->delimiter(',');
+  command->add_option("--without", options->choice.without, "classes of bodies to hold out, likewise")
+      ->delimiter(',');
 }
 
 }  // namespace
@@ -191,23 +192,18 @@ void add_forest(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
   const auto add_file = [options](CLI::App* command) {
-    command->add_option("FILE", options->file, "file written by forest train")->required();
+    command
+        ->add_option("FILE", options->file,
+                     "file written by forest train, or name of a database that comes with conchoid")
+        ->required();
     return command;
   };
-  add_file(add_command(*group, invocation, "info", "Settings, provenance and ranges of the training",
-                       [options, &invocation] {
-                         const std::unique_ptr<Regressor> model = load_regressor(options->file);
-                         print(invocation.common.json ? json_text(*model) : regressor_text(*model));
-                       }));
-  add_file(add_command(*group, invocation, "evaluate", "One-step accuracy beside the steady baseline",
-                       [options, &invocation] {
-                         const std::unique_ptr<Regressor> model = load_regressor(options->file);
-                         const Evaluation e = evaluate_beside_baselines(
-                             *model, read_database(options->samples).training_samples());
-                         print(invocation.common.json ? json_text(e) : evaluation_text(e));
-                       }))
-      ->add_option("--samples", options->samples, "database file (HDF5)")
-      ->required();
+  add_file(add_command(
+      *group, invocation, "info", "Settings, provenance and ranges of the training", [options, &invocation] {
+        const std::unique_ptr<Regressor> model = load_regressor(database_file(options->file));
+        print(invocation.common.json ? json_text(*model) : regressor_text(*model));
+      }));
+  add_forest_evaluate(*group, invocation);
   add_file(add_command(*group, invocation, "inspect", "Sizes of the trees and what they split on",
                        [options, &invocation] {
                          const ordered_json json = inspection(options->file);

@@ -9,7 +9,9 @@
 #include "conchoid/bem/body_solver.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
-#include "conchoid/learn/regressor.hpp"
+#include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor_kinds.hpp"
+#include "conchoid/learn/shipped.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/settings.hpp"
 
@@ -76,7 +78,10 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   options.resume = command.resume;
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   std::unique_ptr<Regressor> regressor;
-  if (!command.database.empty()) regressor = load_regressor(command.database);
+  std::string database = command.database;
+  if (database.empty() && opening_method(command.method).regressor == forest_kind().name)
+    database = std::string(kStandardDatabase);
+  if (!database.empty()) regressor = load_regressor(database_file(database));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor);
   Scene scene = read_scene(command.scene);
@@ -117,8 +122,11 @@ void add_run(CLI::App& program, Invocation& invocation) {
           "which gives the same to rounding and is slower")
       ->check(CLI::IsMember(body_solver_names()))
       ->capture_default_str();
-  command->add_option("--database", options->database,
-                      "file written by conchoid forest train, for --method " + trained);
+  command->add_option(
+      "--database", options->database,
+      fmt::format("for --method {}: {}, which come with conchoid, or a file written by conchoid "
+                  "forest train; without it a forest is {}",
+                  trained, fmt::join(shipped_names(), ", "), kStandardDatabase));
   add_cache_option(*command, options->cache);
   command->add_option("--frames", options->frames, "most frames, in place of the scene's")
       ->check(CLI::Range(1, 100000));

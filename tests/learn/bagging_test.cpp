@@ -137,8 +137,9 @@ TEST(Bagging, TreesHaveTheSameBitsForEveryNumberOfThreads) {
   for (std::size_t i = 0; i < d.size(); i += 100)
     d.target.values[i] *= 1000;  // heavy tail: rounding would show
   const auto fit = [&](int threads) {
-    return ExecutionContext(threads).run(
-        [&] { return fit_bagged_trees(d.rows, d.columns, {d.target}, {6, 12, 1, 1024})[0]; });
+    return ExecutionContext(threads).run([&] {
+      return fit_bagged_trees(d.rows, d.columns, {d.target}, {6, 12, 1, 1024})[0];
+    });
   };
   const auto one = fit(1), two = fit(2), four = fit(4);
   for (std::size_t t = 0; t < one.size(); ++t)

@@ -29,6 +29,13 @@ endfunction()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
 file(RENAME ${work}/installed ${work}/moved)
 run(${work}/moved/bin/conchoid --version)
+# Regressors that come with the program are installed with it.
+foreach(name cube cylinder bar versatile)
+  if(NOT EXISTS ${work}/moved/share/conchoid/databases/${name}.forest)
+    message(FATAL_ERROR "${name}.forest is not installed")
+  endif()
+endforeach()
+run(${work}/moved/bin/conchoid forest info versatile)
 # Modules are found where they went: by the program, and by those that are linked with the library.
 if(EXISTS ${BUILD}/modules/conchoid_level_sets.so)
   set(level_sets LEVEL_SETS)

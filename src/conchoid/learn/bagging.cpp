@@ -29,6 +29,7 @@ std::vector<std::vector<float>> mean_predictions(const std::vector<std::vector<f
 void check_settings(const BaggingSettings& s) {
   if (s.trees < 1) throw InputError("a forest needs at least one tree; give a positive number of trees");
   if (s.depth < 1 || s.depth > 20) throw InputError("the depth of the trees must lie between 1 and 20");
+  if (s.leaf < 1) throw InputError("a leaf needs at least one sample; give a positive number");
   if (s.bins < 2 || s.bins > 65536) throw InputError("the number of bins must lie between 2 and 65536");
 }
 

@@ -21,6 +21,7 @@ struct BaggingSettings {
   int depth = 10;  ///< maximal depth, 1 … 20
   std::uint64_t seed = 1;
   int bins = 256;  ///< candidate thresholds per feature (quantiles), 2 … 65536
+  int leaf = 1;    ///< least number of samples in a leaf, with multiplicity, ≥ 1
 };
 
 /// One target per sample to be learned from rows of features.

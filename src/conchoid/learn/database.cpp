@@ -13,16 +13,24 @@ std::int32_t DatabaseHeader::planned_here() const {
   return shard > planned_runs ? 0 : (planned_runs - shard) / shards + 1;
 }
 
-SampleSet Database::training_samples() const {
-  SampleSet result;
-  std::set<std::int32_t> excluded;
+SampleSet Database::training_samples(const TrainingChoice& choice) const {
+  std::set<std::int32_t> left_out;
   for (const RunRecord& run : runs)
-    if (run.excluded) excluded.insert(run.id);
-  if (excluded.empty()) return samples;
+    if (run.excluded || choice.without.contains(run.body_class) ||
+        (!choice.only.empty() && !choice.only.contains(run.body_class)))
+      left_out.insert(run.id);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (!excluded.contains(samples.run()[i])) kept.push_back(i);
+    if (!left_out.contains(samples.run()[i]) && (choice.end_game || !is_end_game(samples[i])))
+      kept.push_back(i);
   return samples.subset(kept);
+}
+
+std::set<std::string> Database::body_classes() const {
+  std::set<std::string> classes;
+  for (const RunRecord& run : runs)
+    classes.insert(run.body_class);
+  return classes;
 }
 
 std::uint64_t Database::hash() const {
@@ -33,6 +41,9 @@ std::uint64_t Database::hash() const {
     out.put(r.seed);
     for (const double x : {r.direction[0], r.direction[1], r.direction[2], r.magnitude, r.alpha, r.beta})
       out.put(x);
+    out.put(r.body);
+    out.put_text(r.body_class);
+    out.put_text(r.load);
     out.put(r.frames);
     out.put_text(r.stop);
     out.put_text(r.excluded ? "excluded: " + r.reason : "kept");

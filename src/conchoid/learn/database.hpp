@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct RunRecord {
   Vec3 direction = Vec3::Zero();  ///< unit vector of the force
   double magnitude = 0;           ///< of the load, in the unit the specification names
   double alpha = 0, beta = 0;     ///< slope and rotation of the direction [degree]
+  std::int32_t body = 0;          ///< number of the body, where runs have different ones
+  std::string body_class;  ///< what the body is one of: "cube", "box", "cup"; whole classes can be held out
+  std::string load;        ///< kind of load: "pull", "bend", …; empty: a traction along the direction
   std::int32_t frames = 0;
   std::string stop;           ///< why it ended: arrested, separated, frame-limit, …
   bool excluded = false;      ///< not to be learned from
@@ -44,6 +48,14 @@ struct RunRecord {
   bool operator==(const RunRecord&) const = default;
 };
 
+/// What of a database is learned from.
+struct TrainingChoice {
+  /// Openings beyond kLargestOpening, too: a piece hangs by a ligament. The published method leaves them out.
+  bool end_game = false;
+  std::set<std::string> only;     ///< classes of bodies; empty: all
+  std::set<std::string> without;  ///< classes that are held out
+};
+
 /// Everything in a database file: runs ordered by id, samples in the order of their runs.
 struct Database {
   DatabaseHeader header;
@@ -52,8 +64,10 @@ struct Database {
 
   /// All planned runs are there.
   bool complete() const { return static_cast<std::int32_t>(runs.size()) == header.planned_here(); }
-  /// Samples of the runs that are not excluded.
-  SampleSet training_samples() const;
+  /// Samples of the runs that are not excluded, as far as they are chosen.
+  SampleSet training_samples(const TrainingChoice& choice = {}) const;
+  /// Classes of bodies that runs are of.
+  std::set<std::string> body_classes() const;
   /// Hash of the content; wall-clock times do not enter.
   std::uint64_t hash() const;
 };

@@ -9,4 +9,13 @@ namespace conchoid {
 /// the training.
 Provenance provenance_of(const DatabaseHeader& header);
 
+/// Several databases to be learned from together.
+struct JoinedSamples {
+  SampleSet samples;
+  /// Models of all; material and resolution where they agree, else 0; specifications one after the other.
+  Provenance provenance;
+};
+/// Chosen samples of all, with runs numbered on so that they stay apart.
+JoinedSamples join_samples(const std::vector<Database>& databases, const TrainingChoice& choice);
+
 }  // namespace conchoid

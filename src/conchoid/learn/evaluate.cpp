@@ -62,18 +62,44 @@ Accuracy accuracy(const SampleSet& samples, const std::vector<Vec3>& openings) {
   return result;
 }
 
+namespace {
+
+// Of many K at once; only those that pull.
+class DirectionError {
+ public:
+  void add(const Vec3& predicted, const Vec3& actual) {
+    if (!(actual[0] > 0)) return;
+    const double error = std::atan2(predicted[1], predicted[0]) - std::atan2(actual[1], actual[0]);
+    sum_ += error * error;
+    ++count_;
+  }
+  std::optional<double> root_mean_square() const {
+    if (count_ == 0) return std::nullopt;
+    return std::sqrt(sum_ / static_cast<double>(count_));
+  }
+
+ private:
+  double sum_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
 Score score(const OpeningPredictor& predictor, const SampleSet& samples) {
   Score result;
   result.name = predictor.name();
   std::vector<Vec3> openings;
+  DirectionError direction;
   const std::vector<OpeningPrediction> predictions = predictor.predict_openings(samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     openings.push_back(predictions[i].opening);
+    if (predictions[i].driving) direction.add(*predictions[i].driving, samples[i].driving_after);
     result.in_range += predictions[i].in_range;
     result.spread +=
         (predictions[i].spread / samples[i].resolution).cwiseAbs2() / static_cast<double>(samples.size());
   }
   result.spread = result.spread.cwiseSqrt();
+  result.direction_error = direction.root_mean_square();
   result.accuracy = accuracy(samples, openings);
   return result;
 }
@@ -89,6 +115,12 @@ Evaluation evaluate(const Regressor& model, const SampleSet& samples,
   result.runs = distinct_runs(samples).size();
   result.seen_in_training = samples.hash() == model.provenance().samples_hash;
   result.model = score(model, samples);
+  if (model.looks_around()) {
+    DirectionError kept;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      kept.add(samples[i].driving, samples[i].driving_after);
+    result.kept_direction_error = kept.root_mean_square();
+  }
   for (const OpeningPredictor* baseline : baselines)
     result.baselines.push_back(score(*baseline, samples));
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,17 @@ struct Score {
   std::size_t in_range = 0;  ///< samples that are not beyond its training
   /// Root mean square of the spread that it states, of Δu/r̄: to compare with rmse.
   Vec3 spread = Vec3::Zero();
+  /// Root mean square error of atan2(K_II, K_I) of the K that drives the front, which is what turns it [rad]; none where
+  /// that is not told.
+  std::optional<double> direction_error = {};
 };
 
 struct Evaluation {
   std::size_t samples = 0, runs = 0;
   Score model;
   std::vector<Score> baselines;
+  /// As Score::direction_error, of K kept in the front's own frame; none where samples do not hold it.
+  std::optional<double> kept_direction_error = {};
   /// These are exactly the samples the model was trained on: the figures flatter it.
   bool seen_in_training = false;
 };

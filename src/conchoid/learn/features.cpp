@@ -7,12 +7,17 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
+#include "conchoid/learn/versatile_features.hpp"
 
 namespace conchoid {
 namespace {
 
-constexpr std::array<FeatureSet, 5> sets = {FeatureSet::paper_3, FeatureSet::paper_4, FeatureSet::paper_5,
-                                            FeatureSet::dimensionless, FeatureSet::dimensionless_context};
+constexpr std::array<FeatureSet, 6> sets = {FeatureSet::paper_3,
+                                            FeatureSet::paper_4,
+                                            FeatureSet::paper_5,
+                                            FeatureSet::dimensionless,
+                                            FeatureSet::dimensionless_context,
+                                            FeatureSet::versatile};
 
 bool is_paper(FeatureSet set) {
   return set == FeatureSet::paper_3 || set == FeatureSet::paper_4 || set == FeatureSet::paper_5;
@@ -51,6 +56,8 @@ std::string_view name(FeatureSet set) {
       return "dimensionless";
     case FeatureSet::dimensionless_context:
       return "dimensionless-context";
+    case FeatureSet::versatile:
+      return "versatile";
   }
   return "";
 }
@@ -65,6 +72,7 @@ FeatureSet feature_set_from_name(std::string_view wanted) {
 }
 
 std::vector<std::string> feature_names(FeatureSet set) {
+  if (set == FeatureSet::versatile) return versatile_feature_names();
   std::vector<std::string> names;
   if (is_paper(set)) {
     names = {"K_I/sqrt(r_bar)", "K_II/sqrt(r_bar)", "K_III/sqrt(r_bar)"};
@@ -93,11 +101,14 @@ std::size_t feature_count(FeatureSet set) {
       return 9;
     case FeatureSet::dimensionless_context:
       return 14;
+    case FeatureSet::versatile:
+      return versatile_feature_names().size();
   }
   return 0;
 }
 
 std::vector<std::string> context_fields(FeatureSet set) {
+  if (set == FeatureSet::versatile) return versatile_fields();
   if (set != FeatureSet::dimensionless_context) return {};
   return {"front_curvature", "surface_distance", "traction_I", "traction_II", "traction_III"};
 }
@@ -124,6 +135,7 @@ void require_recorded(FeatureSet set, const SampleSet& samples) {
 
 void features(const Sample& s, FeatureSet set, std::span<double> row) {
   if (row.size() != feature_count(set)) throw std::logic_error("features: the row has the wrong length");
+  if (set == FeatureSet::versatile) return versatile_features(s, row);
   std::size_t n = 0;
   if (is_paper(set)) {
     for (int mode = 0; mode < 3; ++mode)
@@ -150,19 +162,44 @@ void features(const Sample& s, FeatureSet set, std::span<double> row) {
     row[n++] = sense[mode] * s.traction[mode] * std::sqrt(s.resolution) / S;
 }
 
+int image_count(FeatureSet set) {
+  return set == FeatureSet::versatile ? kVersatileImages : 1;
+}
+
+void apply_image(FeatureSet set, int image, std::span<double> row) {
+  if (set == FeatureSet::versatile) versatile_image(image, row);
+}
+
+Vec3 label_image(FeatureSet set, int image, const Vec3& label) {
+  return set == FeatureSet::versatile ? versatile_label_image(image, label) : label;
+}
+
+bool learns_end_game(FeatureSet set) {
+  return set == FeatureSet::versatile;
+}
+
+std::optional<Vec3> driving_from_label(const Sample& s, FeatureSet set, const Vec3& label) {
+  if (set != FeatureSet::versatile) return std::nullopt;
+  return versatile_driving(s, label);
+}
+
 Vec3 label(const Sample& s, FeatureSet set) {
+  if (set == FeatureSet::versatile) return versatile_label(s);
   if (is_paper(set)) return s.opening / s.resolution;
   const Vec3 K_after = stress_intensity(s.opening, s.distance_after, material(s));
   return senses(s).cwiseProduct(K_after - s.K) / intensity_scale(s);
 }
 
 Vec3 opening_from_label(const Sample& s, FeatureSet set, const Vec3& label) {
+  if (set == FeatureSet::versatile) return versatile_opening(s, versatile_driving(s, label));
   if (is_paper(set)) return label * s.resolution;
   const Vec3 K_after = s.K + intensity_scale(s) * senses(s).cwiseProduct(label);
   return opening_from_intensity(K_after, s.distance_after, material(s));
 }
 
 Vec3 opening_spread(const Sample& s, FeatureSet set, const Vec3& label_spread) {
+  if (set == FeatureSet::versatile)
+    return opening_from_intensity(s.driving.norm() * label_spread, s.distance_after, material(s)).cwiseAbs();
   if (is_paper(set)) return label_spread * s.resolution;
   return opening_from_intensity(intensity_scale(s) * label_spread, s.distance_after, material(s)).cwiseAbs();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ namespace conchoid {
 /// | dimensionless         | K_I/S, abs K_II/S, abs K_III/S, K_c/S, r⁻/r̄, r⁺/r̄, r⁺/r⁻,    | (K⁺ − K)/S,  |
 /// |                       | travelled/r̄, ν                                               | signs below  |
 /// | dimensionless-context | the same, κ r̄, r̄/(r̄ + surface distance), √r̄ traction/S       | the same     |
+/// | versatile             | direction of K, turn, stress without crack, walls, front      | versatile_features.hpp |
 ///
 /// S² = K_I² + K_II² + K_III²/(1−ν) + K_c² > 0, and K⁺ is the intensity that the opening Δu at distance r⁺ stands
 /// for (displacement correlation). K⁺ = K says "K stays as it is": a dimensionless regressor learns the correction
@@ -34,7 +36,7 @@ namespace conchoid {
 /// of e1 and e2 negates (K_III, Δu_III). The dimensionless sets look at the absolute values and give labels and
 /// tractions II and III relative to the signs of K_II and K_III, so both symmetries hold exactly.
 // clang-format on
-enum class FeatureSet { paper_3, paper_4, paper_5, dimensionless, dimensionless_context };
+enum class FeatureSet { paper_3, paper_4, paper_5, dimensionless, dimensionless_context, versatile };
 
 /// All sets in the order of the enumeration.
 std::vector<FeatureSet> all_feature_sets();
@@ -57,6 +59,16 @@ void require_recorded(FeatureSet set, const SampleSet& samples);
 void features(const Sample& sample, FeatureSet set, std::span<double> row);
 /// The three labels, modes I, II, III.
 Vec3 label(const Sample& sample, FeatureSet set);
+/// Number of images of a row under the signs of its quantities that a regressor is trained on and asked for; 1: the row
+/// alone. Image 0 is the row itself.
+int image_count(FeatureSet set);
+/// Turns a row, or a label, into an image of it, and back.
+void apply_image(FeatureSet set, int image, std::span<double> row);
+Vec3 label_image(FeatureSet set, int image, const Vec3& label);
+/// Whether it learns from openings beyond kLargestOpening.
+bool learns_end_game(FeatureSet set);
+/// K that drives the front of frame n, in its own frame [Pa√m], where a label tells that; else none.
+std::optional<Vec3> driving_from_label(const Sample& sample, FeatureSet set, const Vec3& label);
 /// Inverse of label: the opening [m] in the front frame of frame n−1; uses everything of the sample but its
 /// opening.
 Vec3 opening_from_label(const Sample& sample, FeatureSet set, const Vec3& label);
@@ -73,6 +85,7 @@ struct FeatureMatrix {
 
   std::size_t rows() const { return columns ? values.size() / columns : 0; }
   std::span<const double> row(std::size_t i) const { return {values.data() + i * columns, columns}; }
+  std::span<double> row_of(std::size_t i) { return {values.data() + i * columns, columns}; }
 };
 
 FeatureMatrix feature_matrix(const SampleSet& samples, FeatureSet set);

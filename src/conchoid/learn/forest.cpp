@@ -33,8 +33,9 @@ RegressionForest RegressionForest::train(const SampleSet& samples, const ForestS
   const auto step = [&] {
     if (progress) progress(++done, 3 * settings.trees);
   };
-  const auto trees = fit_bagged_trees(single_rows(data.rows.values), data.rows.columns, targets,
-                                      {settings.trees, settings.depth, settings.seed, settings.bins}, step);
+  const auto trees =
+      fit_bagged_trees(single_rows(data.rows.values), data.rows.columns, targets,
+                       {settings.trees, settings.depth, settings.seed, settings.bins, settings.leaf}, step);
   RegressionForest forest(std::move(data.record), settings);
   for (std::size_t mode = 0; mode < 3; ++mode)
     forest.ensembles_[mode] = TreeEnsemble(trees[mode], static_cast<int>(data.rows.columns));

@@ -18,6 +18,7 @@ struct ForestSettings {
   FeatureSet features = FeatureSet::paper_4;
   std::uint64_t seed = 1;  ///< of the bootstrap samples
   int bins = 256;          ///< candidate thresholds per feature, 2 … 65536
+  int leaf = 1;            ///< least number of samples in a leaf, ≥ 1
 };
 
 /// Three regression forests, one per fracture mode, over one feature set: bagging as in Breiman 1996 (see

@@ -172,6 +172,7 @@ void visit_run_columns(Visit visit) {
   visit("magnitude", &RunRecord::magnitude);
   visit("alpha", &RunRecord::alpha);
   visit("beta", &RunRecord::beta);
+  visit("body", &RunRecord::body);
   visit("frames", &RunRecord::frames);
   visit("samples", &RunRecord::samples);
   visit("wall_seconds", &RunRecord::wall_seconds);
@@ -190,6 +191,9 @@ void write_runs(const H5::Group& group, const std::vector<RunRecord>& runs) {
                  column_of<double>(runs, [&](const RunRecord& r) { return r.direction[i]; }));
   write_column(group, "excluded",
                column_of<std::int32_t>(runs, [](const RunRecord& r) { return r.excluded; }));
+  write_texts(group, "body_class",
+              column_of<std::string>(runs, [](const RunRecord& r) { return r.body_class; }));
+  write_texts(group, "load", column_of<std::string>(runs, [](const RunRecord& r) { return r.load; }));
   write_texts(group, "stop", column_of<std::string>(runs, [](const RunRecord& r) { return r.stop; }));
   write_texts(group, "reason", column_of<std::string>(runs, [](const RunRecord& r) { return r.reason; }));
 }
@@ -210,6 +214,8 @@ std::vector<RunRecord> read_runs(const H5::Group& group) {
          [&](RunRecord& r, double value) { r.direction[i] = value; });
   fill(read_column<std::int32_t>(group, "excluded"),
        [](RunRecord& r, std::int32_t value) { r.excluded = value != 0; });
+  fill(read_texts(group, "body_class"), [](RunRecord& r, const std::string& value) { r.body_class = value; });
+  fill(read_texts(group, "load"), [](RunRecord& r, const std::string& value) { r.load = value; });
   fill(read_texts(group, "stop"), [](RunRecord& r, const std::string& value) { r.stop = value; });
   fill(read_texts(group, "reason"), [](RunRecord& r, const std::string& value) { r.reason = value; });
   return runs;

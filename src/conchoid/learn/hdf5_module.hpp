@@ -10,7 +10,7 @@ namespace conchoid {
 
 constexpr Module kHdf5Module{"conchoid_databases", "HDF5", "CONCHOID_WITH_LEARNING"};
 
-constexpr std::int32_t kDatabaseVersion = 1;  ///< of the file
+constexpr std::int32_t kDatabaseVersion = 2;  ///< of the file
 
 /// The database as the bytes of an HDF5 file, and back. One call at a time: HDF5 is not safe for several threads.
 /// Throw ComputationError (DatabaseToHdf5) and InputError with the reason alone.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,8 @@ struct OpeningPrediction {
   Vec3 opening = Vec3::Zero();  ///< Δu [m] in the front frame of frame n−1
   Vec3 spread = Vec3::Zero();   ///< its standard deviation [m]; 0 where the predictor states none
   bool in_range = true;         ///< false: asked beyond what it was trained on
+  /// K that drives the front of frame n, in its own front frame [Pa√m]; none: what belongs to the opening
+  std::optional<Vec3> driving = {};
 };
 
 /// Predicts openings from what was known in the frame before: a trained regressor, or a closed form.
@@ -20,6 +23,8 @@ class OpeningPredictor {
   virtual ~OpeningPredictor() = default;
   /// As reports name it.
   virtual std::string_view name() const = 0;
+  /// Whether it looks at fields of the samples that have to be measured around the front (sim/front_surroundings.hpp).
+  virtual bool looks_around() const { return false; }
   /// One prediction per sample. Uses everything of the samples but their opening.
   virtual std::vector<OpeningPrediction> predict_openings(const SampleSet& samples) const = 0;
 };

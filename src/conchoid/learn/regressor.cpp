@@ -54,14 +54,34 @@ std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {
   return result;
 }
 
+std::vector<Prediction> Regressor::predict_labels(const SampleSet& samples) const {
+  const FeatureSet set = record_.features;
+  FeatureMatrix rows = feature_matrix(samples, set);
+  const int images = image_count(set);
+  if (images == 1) return predict(rows);
+  std::vector<Prediction> mean(samples.size());
+  for (int image = 0; image < images; ++image) {
+    FeatureMatrix of_image = rows;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      apply_image(set, image, of_image.row_of(i));
+    const std::vector<Prediction> labels = predict(of_image);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      mean[i].mean += label_image(set, image, labels[i].mean) / images;
+      mean[i].spread += labels[i].spread / images;
+      mean[i].in_range = mean[i].in_range && labels[i].in_range;
+    }
+  }
+  return mean;
+}
+
 std::vector<OpeningPrediction> Regressor::predict_openings(const SampleSet& samples) const {
   const FeatureSet set = record_.features;
-  const std::vector<Prediction> labels = predict(feature_matrix(samples, set));
+  const std::vector<Prediction> labels = predict_labels(samples);
   std::vector<OpeningPrediction> result(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample s = samples[i];
     result[i] = {opening_from_label(s, set, labels[i].mean), opening_spread(s, set, labels[i].spread),
-                 labels[i].in_range};
+                 labels[i].in_range, driving_from_label(s, set, labels[i].mean)};
   }
   return result;
 }

@@ -67,7 +67,10 @@ class Regressor : public OpeningPredictor {
   /// Name in the list of kinds: "forest", "ridge".
   std::string_view name() const override = 0;
 
+  bool looks_around() const override { return !context_fields(record_.features).empty(); }
   std::vector<OpeningPrediction> predict_openings(const SampleSet& samples) const override;
+  /// Labels of samples: the mean over the images that the feature set has.
+  std::vector<Prediction> predict_labels(const SampleSet& samples) const;
   /// Throws InputError if the rows are of another feature set or not finite.
   std::vector<Prediction> predict(const FeatureMatrix& rows) const;
   /// @param row  features of the regressor's own set, finite

@@ -46,7 +46,7 @@ RidgeRegression RidgeRegression::train(const SampleSet& samples, const RidgeSett
   const TrainingData data = prepare_training(samples, settings.features, std::move(provenance));
   RidgeRegression ridge(data.record);
   ridge.basis_ = TermBasis(data.rows, settings.degree);
-  ridge.lambda_ = settings.lambda ? *settings.lambda : choose_lambda(data, ridge.basis_, samples.run());
+  ridge.lambda_ = settings.lambda ? *settings.lambda : choose_lambda(data, ridge.basis_, data.run);
   const RidgeFit fit = fit_ridge(data, ridge.basis_, ridge.lambda_);
   for (int mode = 0; mode < 3; ++mode)
     ridge.beta_[static_cast<std::size_t>(mode)].assign(fit.beta.col(mode).begin(), fit.beta.col(mode).end());

@@ -10,7 +10,7 @@
 namespace conchoid {
 namespace {
 
-constexpr std::string_view magic = "CNCHRUN1";
+constexpr std::string_view magic = "CNCHRUN2";
 
 void put_record(ByteWriter& out, const RunRecord& r) {
   out.put(r.id);
@@ -19,6 +19,9 @@ void put_record(ByteWriter& out, const RunRecord& r) {
     out.put(r.direction[i]);
   for (const double x : {r.magnitude, r.alpha, r.beta, r.wall_seconds})
     out.put(x);
+  out.put(r.body);
+  out.put_text(r.body_class);
+  out.put_text(r.load);
   out.put(r.frames);
   out.put_text(r.stop);
   out.put(static_cast<std::uint32_t>(r.excluded));
@@ -35,6 +38,9 @@ RunRecord get_record(ByteReader& in) {
     r.direction[i] = in.get<double>();
   for (double* x : {&r.magnitude, &r.alpha, &r.beta, &r.wall_seconds})
     *x = in.get<double>();
+  r.body = in.get<std::int32_t>();
+  r.body_class = in.get_text();
+  r.load = in.get_text();
   r.frames = in.get<std::int32_t>();
   r.stop = in.get_text();
   r.excluded = in.get<std::uint32_t>() != 0;

@@ -1,5 +1,6 @@
 #include "conchoid/learn/sample.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -29,43 +30,80 @@ constexpr std::array<SampleField, SampleSet::field_count> field_table = {{
     {"opening_I", "m"},
     {"opening_II", "m"},
     {"opening_III", "m"},
+    {"lateral_22", "Pa"},
+    {"lateral_33", "Pa"},
+    {"lateral_23", "Pa"},
+    {"wall_distance", "m"},
+    {"driving_I", "Pa*sqrt(m)"},
+    {"driving_II", "Pa*sqrt(m)"},
+    {"driving_III", "Pa*sqrt(m)"},
+    {"driving_nearby_I", "Pa*sqrt(m)"},
+    {"driving_nearby_II", "Pa*sqrt(m)"},
+    {"driving_nearby_III", "Pa*sqrt(m)"},
+    {"driving_slope_I", "Pa/sqrt(m)"},
+    {"driving_slope_II", "Pa/sqrt(m)"},
+    {"driving_slope_III", "Pa/sqrt(m)"},
+    {"driving_front_I", "Pa*sqrt(m)"},
+    {"driving_front_II", "Pa*sqrt(m)"},
+    {"driving_front_III", "Pa*sqrt(m)"},
+    {"crack_radius", "m"},
+    {"ligament_share", "1"},
+    {"front_curvature_after", "1/m"},
+    {"surface_distance_after", "m"},
+    {"wall_distance_after", "m"},
+    {"traction_after_I", "Pa"},
+    {"traction_after_II", "Pa"},
+    {"traction_after_III", "Pa"},
+    {"lateral_after_22", "Pa"},
+    {"lateral_after_33", "Pa"},
+    {"lateral_after_23", "Pa"},
+    {"turn_21", "1"},
+    {"turn_31", "1"},
+    {"turn_23", "1"},
+    {"driving_after_I", "Pa*sqrt(m)"},
+    {"driving_after_II", "Pa*sqrt(m)"},
+    {"driving_after_III", "Pa*sqrt(m)"},
 }};
 
-std::array<double, SampleSet::field_count> values_of(const Sample& s) {
-  return {s.K[0],
-          s.K[1],
-          s.K[2],
-          s.toughness,
-          s.resolution,
-          s.distance_before,
-          s.distance_after,
-          s.travelled,
-          s.youngs_modulus,
-          s.poisson_ratio,
-          s.front_curvature,
-          s.surface_distance,
-          s.traction[0],
-          s.traction[1],
-          s.traction[2],
-          s.opening[0],
-          s.opening[1],
-          s.opening[2]};
+/// Calls visit(value) for every real-valued field, in the order of the table.
+template <class AnySample, class Visit>
+void visit_values(AnySample& s, const Visit& visit) {
+  const auto each = [&](auto& v) {
+    for (int k = 0; k < 3; ++k)
+      visit(v[k]);
+  };
+  each(s.K);
+  for (auto* value : {&s.toughness, &s.resolution, &s.distance_before, &s.distance_after, &s.travelled,
+                      &s.youngs_modulus, &s.poisson_ratio, &s.front_curvature, &s.surface_distance})
+    visit(*value);
+  each(s.traction);
+  each(s.opening);
+  each(s.lateral);
+  visit(s.wall_distance);
+  each(s.driving);
+  each(s.driving_nearby);
+  each(s.driving_slope);
+  each(s.driving_front);
+  for (auto* value : {&s.crack_radius, &s.ligament_share, &s.front_curvature_after, &s.surface_distance_after,
+                      &s.wall_distance_after})
+    visit(*value);
+  each(s.traction_after);
+  each(s.lateral_after);
+  each(s.turn);
+  each(s.driving_after);
 }
 
-Sample sample_from(const std::array<double, SampleSet::field_count>& v) {
+std::array<double, SampleSet::field_count> values_of(const Sample& s) {
+  std::array<double, SampleSet::field_count> values;
+  std::size_t f = 0;
+  visit_values(s, [&](double value) { values[f++] = value; });
+  return values;
+}
+
+Sample sample_from(const std::array<double, SampleSet::field_count>& values) {
   Sample s;
-  s.K = {v[0], v[1], v[2]};
-  s.toughness = v[3];
-  s.resolution = v[4];
-  s.distance_before = v[5];
-  s.distance_after = v[6];
-  s.travelled = v[7];
-  s.youngs_modulus = v[8];
-  s.poisson_ratio = v[9];
-  s.front_curvature = v[10];
-  s.surface_distance = v[11];
-  s.traction = {v[12], v[13], v[14]};
-  s.opening = {v[15], v[16], v[17]};
+  std::size_t f = 0;
+  visit_values(s, [&](double& value) { value = values[f++]; });
   return s;
 }
 
@@ -73,8 +111,8 @@ Sample sample_from(const std::array<double, SampleSet::field_count>& v) {
 std::string defect(const Sample& s) {
   const auto values = values_of(s);
   for (std::size_t f = 0; f < values.size(); ++f) {
-    const bool endless =
-        field_table[f].name == "surface_distance" && values[f] == std::numeric_limits<double>::infinity();
+    const bool endless = field_table[f].name.find("_distance") != std::string_view::npos &&
+                         values[f] == std::numeric_limits<double>::infinity();
     if (!std::isfinite(values[f]) && !endless)
       return std::string(field_table[f].name) + " is not a finite number";
   }
@@ -83,7 +121,9 @@ std::string defect(const Sample& s) {
   if (s.distance_before <= 0 || s.distance_after <= 0) return "the correlation distance must be positive";
   if (s.youngs_modulus <= 0) return "Young's modulus must be positive";
   if (s.poisson_ratio <= -1 || s.poisson_ratio >= 0.5) return "Poisson's ratio must lie between -1 and 0.5";
-  if (s.travelled < 0 || s.surface_distance < 0) return "travelled and surface_distance must not be negative";
+  if (std::min({s.travelled, s.surface_distance, s.wall_distance, s.surface_distance_after,
+                s.wall_distance_after}) < 0)
+    return "travelled and distances from the surface must not be negative";
   return {};
 }
 

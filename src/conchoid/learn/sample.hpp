@@ -25,14 +25,38 @@ struct Sample {
   double travelled = 0;        ///< distance the front has travelled since the crack started [m], ≥ 0
   double youngs_modulus = 1;   ///< E [Pa], > 0
   double poisson_ratio = 0.3;  ///< ν, −1 < ν < ½
-  // What else is known in linear time; zero where nobody measured it.
+  // What else is known in linear time; zero where nobody measured it. "After" is the front node of frame n and its own
+  // front frame e1′, e2′, e3′, else that of frame n−1.
   double front_curvature = 0;   ///< of the front in the crack plane, positive where the crack is convex [1/m]
   double surface_distance = 0;  ///< from the front node along e2 to the body's surface [m], may be infinite
-  /// σ·e1 of the uncracked body (frame 1) at the front node, in the front frame [Pa]
+  /// σ·e1 of the body without this crack at the front node, in the front frame [Pa]
   Vec3 traction = Vec3::Zero();
+  Vec3 lateral = Vec3::Zero();         ///< σ22, σ33, σ23 there [Pa]
+  double wall_distance = 0;            ///< to the nearest point of the body's surface [m]
+  Vec3 driving = Vec3::Zero();         ///< K that moved the front [Pa√m]
+  Vec3 driving_nearby = Vec3::Zero();  ///< its mean over the point and its neighbours on the front [Pa√m]
+  Vec3 driving_slope = Vec3::Zero();   ///< its change along e3, across the neighbours [Pa√m/m]
+  Vec3 driving_front = Vec3::Zero();   ///< its mean over the connected front [Pa√m]
+  double crack_radius = 0;             ///< √(area/π) of the crack, after [m]
+  double ligament_share = 0;  ///< L/(L + crack area), L what lies straight ahead of its fronts, after; 0 … 1
+  double front_curvature_after = 0;    ///< [1/m]
+  double surface_distance_after = 0;   ///< [m]
+  double wall_distance_after = 0;      ///< [m]
+  Vec3 traction_after = Vec3::Zero();  ///< [Pa]
+  Vec3 lateral_after = Vec3::Zero();   ///< [Pa]
+  Vec3 turn = Vec3::Zero();            ///< what the frame has turned: e2′·e1, e3′·e1, e2′·e3
+  /// Label: K that drives the front of frame n, in its own front frame [Pa√m]
+  Vec3 driving_after = Vec3::Zero();
   /// Label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]
   Vec3 opening = Vec3::Zero();
 };
+
+/// × r̄: openings beyond it, a triangle behind the front, say nothing in linear elasticity: a piece hangs by a
+/// ligament.
+inline constexpr double kLargestOpening = 3;
+inline bool is_end_game(const Sample& s) {
+  return s.opening.norm() >= kLargestOpening * s.resolution;
+}
 
 /// One real-valued field of a Sample.
 struct SampleField {
@@ -43,7 +67,7 @@ struct SampleField {
 /// Samples as structure of arrays: one array per field.
 class SampleSet {
  public:
-  static constexpr std::size_t field_count = 18;
+  static constexpr std::size_t field_count = 51;
   /// Names and units of the real-valued fields, in the order of field(); part of every file format.
   static const std::array<SampleField, field_count>& fields();
 

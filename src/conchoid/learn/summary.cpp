@@ -121,6 +121,8 @@ std::string json_text(const Evaluation& e) {
   j["model"] = e.model.name;
   j["samples"] = e.samples;
   j["runs"] = e.runs;
+  if (e.model.direction_error) j["direction_error"] = *e.model.direction_error;
+  if (e.kept_direction_error) j["kept_direction_error"] = *e.kept_direction_error;
   for (const Score& baseline : e.baselines)
     j["baseline_" + baseline.name] = to_json(baseline.accuracy);
   j["in_range"] = e.model.in_range;

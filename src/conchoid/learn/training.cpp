@@ -49,13 +49,23 @@ TrainingData prepare_training(const SampleSet& samples, FeatureSet features, Pro
   data.record.provenance.samples = samples.size();
   data.record.provenance.runs = std::set<std::int32_t>(samples.run().begin(), samples.run().end()).size();
   data.record.provenance.samples_hash = samples.hash();
+  const int images = image_count(features);
   data.rows = feature_matrix(samples, features);
+  const std::vector<double> plain = data.rows.values;
+  data.run = samples.run();
+  for (int image = 1; image < images; ++image) {
+    data.rows.values.insert(data.rows.values.end(), plain.begin(), plain.end());
+    data.run.insert(data.run.end(), samples.run().begin(), samples.run().end());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      apply_image(features, image, data.rows.row_of(static_cast<std::size_t>(image) * samples.size() + i));
+  }
   data.record.ranges = measure_ranges(data.rows);
   for (int mode = 0; mode < 3; ++mode) {
     std::vector<double>& values = data.labels[static_cast<std::size_t>(mode)];
-    values.resize(samples.size());
+    values.resize(data.rows.rows());
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = label(samples[i], features)[mode];
+      values[i] = label_image(features, static_cast<int>(i / samples.size()),
+                              label(samples[i % samples.size()], features))[mode];
     const auto [mean, deviation] = moments(values);
     data.record.label_mean[mode] = mean;
     data.record.label_scale[mode] = deviation;

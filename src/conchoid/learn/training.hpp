@@ -7,10 +7,12 @@
 
 namespace conchoid {
 
-/// Samples made ready for the training of any regressor.
+/// Samples made ready for the training of any regressor; where the feature set has images (features.hpp), all samples
+/// once for each.
 struct TrainingData {
   TrainingRecord record;
   FeatureMatrix rows;
+  std::vector<std::int32_t> run;              ///< per row
   std::array<std::vector<double>, 3> labels;  ///< per mode, one per row, of zero mean and unit deviation
 };
 

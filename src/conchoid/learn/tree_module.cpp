@@ -79,7 +79,7 @@ Booster make_booster(const Matrix& matrix, const BaggingSettings& settings) {
   set("lambda", "0");
   set("alpha", "0");
   set("gamma", "0");
-  set("min_child_weight", "1");
+  set("min_child_weight", std::to_string(settings.leaf));
   set("eta", "1");
   return booster;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/mesh/ray_exit.hpp"
 
 namespace conchoid {
 namespace {
@@ -15,20 +16,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t rays = 7, grain = 256;
 constexpr double tilt = 20 * std::numbers::pi / 180;
 constexpr double least_cosine = 0.5;  // between a ray and the normal of the face that it leaves through
-constexpr double on_edge = 1e-9;      // × area: rays through an edge belong to both of its triangles
 constexpr double on_surface = 1e-9;   // × reach: what is so near is the point's own face
-
-/// Distance along the ray; +∞ if it does not leave through the triangle.
-double exit(const Triangle& t, const Vec3& x, const Vec3& direction) {
-  const Vec3 a = t[1] - t[0], b = t[2] - t[0], from = x - t[0];
-  const Vec3 area = cross(a, b);
-  const double along = direction.dot(area), size = area.norm();
-  if (!(along > least_cosine * size)) return infinite;
-  const Vec3 side = cross(direction, from);
-  const double u = side.dot(b) / along, v = -side.dot(a) / along;
-  if (u < -on_edge || v < -on_edge || u + v > 1 + on_edge) return infinite;
-  return -from.dot(area) / along;
-}
 
 }  // namespace
 
@@ -37,7 +25,7 @@ WallProbe::WallProbe(const TriMesh& body) : body_(body), tree_(body) {}
 double WallProbe::depth(const Vec3& x, const Vec3& direction, double reach) const {
   double nearest = infinite;
   tree_.visit_along(x, direction, reach, [&](TriId t) {
-    const double s = exit(body_.triangle(t), x, direction);
+    const double s = exit_distance(body_.triangle(t), x, direction, least_cosine);
     if (s > on_surface * reach && s < nearest) nearest = s;
     return std::min(nearest, reach);
   });

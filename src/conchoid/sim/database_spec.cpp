@@ -9,6 +9,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/random.hpp"
 #include "conchoid/sim/scene_parser.hpp"
+#include "conchoid/sim/world_bodies.hpp"
 
 namespace conchoid {
 namespace {
@@ -50,6 +51,43 @@ void read_loaded_regions(const TomlTable& table, DatabaseSpec& spec) {
   spec.opposite = names[1];
 }
 
+void read_loads(const TomlTable& table, DatabaseSpec& spec) {
+  read_loaded_regions(table, spec);
+  table.read("direction", spec.pole);
+  if (spec.pole.isZero(0)) table.fail("direction", "database.direction is (0, 0, 0); give a direction");
+  spec.pole.normalize();
+  if (!table.has("magnitude"))
+    table.fail({}, "[database] lacks magnitude (smallest and largest traction, Pa); add it");
+  spec.magnitude = read_interval(table, "magnitude", {});
+  spec.slope = read_interval(table, "slope", spec.slope);
+  spec.rotation = read_interval(table, "rotation", spec.rotation);
+}
+
+void require_nothing_beside_world(const TomlTable& file, const TomlTable& database) {
+  for (const char* key : {"body", "material", "resolution", "region", "boundary", "body_force", "crack",
+                          "remote_stress", "run", "output"})
+    if (file.has(key))
+      file.fail(key, fmt::format("[{}] does not go with [world], which draws it; remove one of them", key));
+  for (const char* key : {"regions", "direction", "magnitude", "slope", "rotation", "exclude_above"})
+    if (database.has(key))
+      database.fail(key,
+                    fmt::format("database.{} does not go with [world], which draws loads; remove it", key));
+}
+
+WorldSpec read_world(const TomlTable& table) {
+  table.require_known_keys();
+  WorldSpec world;
+  for (const std::string_view name : body_class_names())
+    world.classes.emplace_back(name);
+  table.read("classes", world.classes);
+  if (world.classes.empty())
+    table.fail("classes", "world.classes is empty; name one, or leave it out for all");
+  table.read("runs_per_body", world.runs_per_body);
+  table.read("elements", world.elements);
+  table.read("cracked", world.cracked);
+  return world;
+}
+
 }  // namespace
 
 DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
@@ -61,30 +99,33 @@ DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
   table->require_known_keys();
 
   DatabaseSpec spec;
-  spec.scene = scene_from(file, name, folder);
+  if (const auto world = file.table("world")) {
+    require_nothing_beside_world(file, *table);
+    spec.world = read_world(*world);
+    spec.scene.file = name;
+    spec.exclusion.alpha_limit = 90;
+  } else {
+    spec.scene = scene_from(file, name, folder);
+    if (spec.scene.body.infinite())
+      file.table("body")->fail("model",
+                               "model = \"infinite\" has no surface to pull at; choose another model");
+    if (const auto run = file.table("run"); run && run->has("frames"))
+      run->fail("frames", "in a database specification the frames are given in [database]; move it there");
+    read_loads(*table, spec);
+    table->read("exclude_above", spec.exclusion.alpha_limit);
+  }
   spec.scene.text = std::string(text);
-  if (spec.scene.body.infinite())
-    file.table("body")->fail("model", "model = \"infinite\" has no surface to pull at; choose another model");
-  if (const auto run = file.table("run"); run && run->has("frames"))
-    run->fail("frames", "in a database specification the frames are given in [database]; move it there");
-
   table->read("runs", spec.runs);
   table->read("seed", spec.seed);
-  read_loaded_regions(*table, spec);
-  table->read("direction", spec.pole);
-  if (spec.pole.isZero(0)) table->fail("direction", "database.direction is (0, 0, 0); give a direction");
-  spec.pole.normalize();
-  if (!table->has("magnitude"))
-    table->fail({}, "[database] lacks magnitude (smallest and largest traction, Pa); add it");
-  spec.magnitude = read_interval(*table, "magnitude", {});
-  spec.slope = read_interval(*table, "slope", spec.slope);
-  spec.rotation = read_interval(*table, "rotation", spec.rotation);
   table->read("frames", spec.exclusion.frame_limit);
-  table->read("exclude_above", spec.exclusion.alpha_limit);
   table->read("many_cracks", spec.exclusion.many_cracks);
   table->read("tiny_growth", spec.exclusion.tiny_growth);
   spec.scene.run.frames = spec.exclusion.frame_limit;
   return spec;
+}
+
+std::string body_class(const BodySpec& body) {
+  return body.model.empty() ? body.mesh.filename().string() : body.model;
 }
 
 DatabaseSpec read_database_spec(const std::filesystem::path& path) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "conchoid/learn/exclusion.hpp"
 #include "conchoid/sim/scene.hpp"
+#include "conchoid/sim/world.hpp"
 
 namespace conchoid {
 
@@ -21,7 +24,11 @@ struct DatabaseSpec {
   std::array<double, 2> slope{0, 90};      ///< α [degree]
   std::array<double, 2> rotation{0, 360};  ///< β [degree]
   ExclusionSettings exclusion;
+  std::optional<WorldSpec> world;  ///< everything is drawn at random; none: as above
 };
+
+/// What a body is called in databases: its model, or the name of its file.
+std::string body_class(const BodySpec& body);
 
 /// Reads a specification: a scene file with a table [database]. Throws InputError "file:line: what, remedy".
 DatabaseSpec read_database_spec(const std::filesystem::path& path);

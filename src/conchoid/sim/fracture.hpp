@@ -16,10 +16,6 @@ namespace conchoid {
 
 class Fracture;
 
-/// × r̄: openings beyond it, a triangle behind the front, say nothing in linear elasticity: a piece hangs by a
-/// ligament. No sample is taken from them, and the ligament breaks straight ahead.
-inline constexpr double kLargestOpening = 3;
-
 /// What a point of the front does in a frame; in the order of CrackState::points.
 struct FrontDecision {
   double drive = 0;      ///< K_eff [Pa√m]

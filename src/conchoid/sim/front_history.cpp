@@ -27,11 +27,6 @@ std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontP
   return s;
 }
 
-void FrontHistory::require_recorded(FeatureSet set) {
-  const std::vector<std::string> empty = context_fields(set);
-  if (!empty.empty()) refuse_empty_fields(set, empty, "runs");
-}
-
 void FrontHistory::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& p = crack.points[i];

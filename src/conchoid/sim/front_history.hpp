@@ -23,8 +23,6 @@ class FrontHistory {
   /// The sample of a point whose correlation node was on the front in the frame before; its label is left at
   /// zero.
   std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const;
-  /// Throws InputError that names them if the feature set looks at quantities that sample() leaves at zero.
-  static void require_recorded(FeatureSet set);
   /// What is remembered of a node.
   struct Entry {
     FrontFrame frame;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <atomic>
-#include <chrono>
 #include <exception>
 #include <optional>
 #include <span>
@@ -12,11 +11,9 @@
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/learn/run_part.hpp"
-#include "conchoid/sim/breakup.hpp"
-#include "conchoid/sim/recorders.hpp"
+#include "conchoid/sim/make_runs.hpp"
 
 namespace conchoid {
 namespace {
@@ -24,10 +21,10 @@ namespace {
 DatabaseHeader make_header(const DatabaseSpec& spec, const GenerateOptions& options) {
   const MaterialSpec& m = spec.scene.material;
   DatabaseHeader header;
-  header.models = {spec.scene.body.model.empty() ? spec.scene.body.mesh.filename().string()
-                                                 : spec.scene.body.model};
-  header.material = {m.youngs_modulus, m.poisson_ratio, m.density,
-                     m.strength,       m.toughness,     m.compressive_factor};
+  header.models = spec.world ? spec.world->classes : std::vector{body_class(spec.scene.body)};
+  if (!spec.world)
+    header.material = {m.youngs_modulus, m.poisson_ratio, m.density,
+                       m.strength,       m.toughness,     m.compressive_factor};
   header.resolution = spec.scene.resolution.crack.value_or(0);
   header.spec = spec.scene.text;
   header.seed = spec.seed;
@@ -47,16 +44,10 @@ void make_share(const DatabaseSpec& spec, const DatabaseHeader& header, Ranks& r
   const std::string list = ranks.receive().bytes;
   ByteReader in(list);
   const auto runs = in.get_all<std::int32_t>(list.size() / sizeof(std::int32_t));
-  if (!runs.empty()) {
-    const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
-    parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
-      throw_if_interrupted();
-      const GeneratedRun made = generate_run(spec, body, runs[i]);
-      RunPart part{made.record, made.samples};
-      part.record.samples = made.samples.size();
-      ranks.send(0, run_part_bytes(part, hash_of(header)));
-    });
-  }
+  make_runs(spec, runs, [&](RunPart part) {
+    part.record.samples = part.samples.size();
+    ranks.send(0, run_part_bytes(part, hash_of(header)));
+  });
   ranks.send(0, {});
 }
 
@@ -128,45 +119,6 @@ class Collector {
 
 }  // namespace
 
-GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
-                          int run) {
-  const auto start = std::chrono::steady_clock::now();
-  const DrawnLoad load = draw_load(spec, run);
-  GeneratedRun out;
-  RunRecord& record = out.record;
-  record.id = run;
-  record.seed = load.seed;
-  record.direction = load.direction;
-  record.magnitude = load.magnitude;
-  record.alpha = load.slope;
-  record.beta = load.rotation;
-  try {
-    const Scene scene = loaded_scene(spec, load);
-    Breakup breakup(scene, body, {BreakupSettings::After::chips});
-    GrowthRecorder growth;
-    SampleRecorder samples;
-    breakup.add_observer(growth);
-    breakup.add_observer(samples);
-    const StopReason stop = breakup.run(scene.run.frames);
-    if (stop == StopReason::interrupted) throw Interrupted("interrupted");
-    record.frames = breakup.frame();
-    record.stop = name(stop);
-    record.reason =
-        exclusion_reason({record.alpha, record.frames, stop != StopReason::frame_limit,
-                          static_cast<std::int32_t>(breakup.cracks()), growth.largest(), body->crack_edge},
-                         spec.exclusion);
-    out.samples = samples.take();
-    for (std::int32_t& id : out.samples.run())
-      id = run;
-  } catch (const ComputationError& error) {
-    record.stop = "failed";
-    record.reason = error.what();
-  }
-  record.excluded = !record.reason.empty();
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return out;
-}
-
 void generate_database(const DatabaseSpec& spec, const GenerateOptions& options) {
   const DatabaseHeader header = make_header(spec, options);
   if (options.ranks != nullptr && options.ranks->rank() > 0) {
@@ -176,15 +128,12 @@ void generate_database(const DatabaseSpec& spec, const GenerateOptions& options)
   DatabaseWriter writer(options.out, header, options.resume);
   std::vector<std::int32_t> missing;
   for (int run = options.shard - 1; run < spec.runs; run += options.shards)
-    if (!writer.has(run)) missing.push_back(run);
+    if (!options.close && !writer.has(run)) missing.push_back(run);
   Progress progress("runs", missing.size());
   std::optional<Collector> others;
   if (options.ranks != nullptr) others.emplace(*options.ranks, header, writer, progress, missing);
-  const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
-  parallel_for(missing.size(), 1, [&](std::size_t i, std::size_t) {
-    throw_if_interrupted();
-    const GeneratedRun generated = generate_run(spec, body, missing[i]);
-    writer.add(generated.record, generated.samples);
+  make_runs(spec, missing, [&](RunPart part) {
+    writer.add(std::move(part.record), part.samples);
     progress.advance();
   });
   if (others) others->finish();

@@ -5,7 +5,6 @@
 #include "conchoid/core/ranks.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/sim/database_spec.hpp"
-#include "conchoid/sim/prepared_body.hpp"
 
 namespace conchoid {
 
@@ -13,6 +12,7 @@ struct GenerateOptions {
   std::filesystem::path out;  ///< database file
   int shard = 1, shards = 1;  ///< this program's share: runs with id ≡ shard − 1 modulo shards
   bool resume = false;        ///< go on with what `out` holds
+  bool close = false;         ///< make no more runs: write `out` from those that are finished
   Ranks* ranks = nullptr;     ///< of a job whose processes share the runs; null: this one makes all
 };
 
@@ -22,13 +22,5 @@ struct GenerateOptions {
 /// they have made. All need the specification and what it names. Throws Interrupted after Ctrl-C; what is finished is on the disk and is taken up by
 /// `resume`. A run that cannot be computed is recorded as excluded, with its message as the reason.
 void generate_database(const DatabaseSpec& spec, const GenerateOptions& options);
-
-/// One run: its record, without samples if it is excluded by an error.
-/// @param body  of the specification's scene, prepared once for all runs
-struct GeneratedRun {
-  RunRecord record;
-  SampleSet samples;
-};
-GeneratedRun generate_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body, int run);
 
 }  // namespace conchoid

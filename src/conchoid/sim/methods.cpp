@@ -105,7 +105,6 @@ const OpeningMethod& checked_method(std::string_view name, const Regressor* regr
     throw InputError(fmt::format(
         "--method {} needs a {}, but the database holds a {}; use --method {} or train another", name,
         regressor_kind(method.regressor).title, regressor_kind(regressor->name()).title, regressor->name()));
-  FrontHistory::require_recorded(regressor->feature_set());
   return method;
 }
 

@@ -39,7 +39,7 @@ const OpeningMethod* find_opening_method(std::string_view name);
 std::vector<const OpeningPredictor*> baseline_predictors();
 
 /// The method of that name, with what it needs. Throws InputError if the name is unknown, if a regressor is
-/// missing, of another kind or not needed, or if it looks at quantities that runs do not record.
+/// missing, of another kind or not needed.
 const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor);
 
 }  // namespace conchoid

@@ -26,12 +26,14 @@ bool PredictedOpening::solve(const CrackState& crack, std::vector<FrontOpening>&
 
 std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
   std::vector<FrontOpening> out;
+  look_at(crack);
   solved_ = solve(crack, out);
   if (!solved_) {
     out = predict(crack);
     fill_gaps(point_chains(crack), out);
   }
   history_.remember(crack, out);
+  remember(crack, out);
   return out;
 }
 
@@ -42,6 +44,19 @@ void PredictedOpening::set_intensity(const FrontPoint& point, const Vec3& K, Fro
         in_world(point.frame, opening_from_intensity(K, point.distance, material_, sif_.convention));
 }
 
+OpeningByPredictor::OpeningByPredictor(const PredictionContext& c, const OpeningPredictor& predictor)
+    : PredictedOpening(c), predictor_(predictor), bem_(c.bem) {
+  if (predictor.looks_around()) surroundings_ = std::make_unique<FrontSurroundings>(c.body);
+}
+
+void OpeningByPredictor::look_at(const CrackState& crack) {
+  if (surroundings_) surroundings_->measure(crack, bem_.body().load(), bem_.loads());
+}
+
+void OpeningByPredictor::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
+  if (surroundings_) surroundings_->remember(crack, openings);
+}
+
 std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
   SampleSet samples;
@@ -49,8 +64,9 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
   for (std::size_t i = 0; i < out.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     if (const FrontHistory::Entry* still = history().find(point.node)) {  // it did not move: nothing changes
-      out[i].intensity = out[i].node_intensity = still->intensity;
-    } else if (const auto sample = history().sample(crack, point)) {
+      out[i].intensity = out[i].node_intensity = surroundings_ ? still->driving : still->intensity;
+    } else if (auto sample = history().sample(crack, point)) {
+      if (surroundings_) surroundings_->complete(crack, i, *sample);
       samples.add(*sample);
       asked.push_back(i);
     } else {
@@ -62,10 +78,14 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
   for (std::size_t p = 0; p < predictions.size(); ++p) {
     const FrontPoint& point = crack.points[asked[p]];
     FrontOpening& o = out[asked[p]];
+    o.in_range = predictions[p].in_range;
+    if (predictions[p].driving) {
+      set_intensity(point, *predictions[p].driving, o);
+      continue;
+    }
     o.opening = in_world(history().find(point.correlation)->frame, predictions[p].opening);
     o.intensity = o.node_intensity =
         stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
-    o.in_range = predictions[p].in_range;
   }
   return out;
 }

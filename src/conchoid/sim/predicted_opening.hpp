@@ -1,6 +1,7 @@
 #pragma once
 
 #include "conchoid/learn/opening_predictor.hpp"
+#include "conchoid/sim/front_surroundings.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
 namespace conchoid {
@@ -26,6 +27,9 @@ class PredictedOpening : public OpeningSource {
   explicit PredictedOpening(const PredictionContext& context);
   /// Opening and K at every point, as open(); points of which nothing is known are marked.
   virtual std::vector<FrontOpening> predict(const CrackState& crack) const = 0;
+  /// What else is to be known of the cracks as they stand, before they are solved or predicted, and after.
+  virtual void look_at(const CrackState& /*crack*/) {}
+  virtual void remember(const CrackState& /*crack*/, const std::vector<FrontOpening>& /*openings*/) {}
   /// What front nodes were like when they were last on the front.
   const FrontHistory& history() const { return history_; }
   /// K of a point, in its own frame, and the opening that belongs to it.
@@ -49,13 +53,17 @@ class PredictedOpening : public OpeningSource {
 class OpeningByPredictor : public PredictedOpening {
  public:
   /// @param predictor  must outlive the source
-  OpeningByPredictor(const PredictionContext& context, const OpeningPredictor& predictor)
-      : PredictedOpening(context), predictor_(predictor) {}
+  OpeningByPredictor(const PredictionContext& context, const OpeningPredictor& predictor);
   std::string name() const override { return std::string(predictor_.name()); }
 
  private:
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
+  void look_at(const CrackState& crack) override;
+  void remember(const CrackState& crack, const std::vector<FrontOpening>& openings) override;
+
   const OpeningPredictor& predictor_;
+  BemOpening& bem_;
+  std::unique_ptr<FrontSurroundings> surroundings_;  // none: the predictor does not look around
 };
 
 /// "K stays as it is in the front's own frame": (K_I, K_II, K_III) of a point are those which its correlation

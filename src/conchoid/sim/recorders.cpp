@@ -1,6 +1,7 @@
 #include "conchoid/sim/recorders.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
@@ -31,17 +32,50 @@ void GrowthRecorder::on_opening(const Fracture& fracture) {
     largest_ = std::max(largest_, fracture.crack().sheet.travelled[point.node]);
 }
 
+namespace {
+
+// Per correlation node the nearest point of its front.
+std::map<NodeId, std::size_t> nearest_points(const CrackState& crack) {
+  std::map<NodeId, std::size_t> nearest;
+  for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    const FrontPoint& point = crack.points[i];
+    if (!point.correlation.valid() || !(point.distance > 0)) continue;
+    const auto [entry, is_new] = nearest.try_emplace(point.correlation, i);
+    if (!is_new && point.distance < crack.points[entry->second].distance) entry->second = i;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
+  if (fields_ == Fields::free) return nullptr;
+  if (body_ != &fracture.body()) {
+    body_ = &fracture.body();
+    surroundings_ = std::make_unique<FrontSurroundings>(*body_);
+  }
+  return surroundings_.get();
+}
+
 void SampleRecorder::on_opening(const Fracture& fracture) {
   if (!fracture.solved()) return;
   const CrackState& crack = fracture.crack();
+  FrontSurroundings* around = surroundings(fracture);
+  if (around) around->measure(crack, fracture.load(), 0);
+  const std::map<NodeId, std::size_t> nearest = nearest_points(crack);
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    const auto chosen = nearest.find(crack.points[i].correlation);
+    if (chosen == nearest.end() || chosen->second != i) continue;
     auto sample = fracture.history().sample(crack, crack.points[i]);
-    if (!sample) continue;
-    const Vec3& opening = fracture.openings()[i].opening;
-    sample->opening = in_frame(fracture.history().find(crack.points[i].correlation)->frame, opening);
-    const double size = opening.norm();
-    if (size > 0 && size < kLargestOpening * fracture.body().crack_edge) samples_.add(*sample);
+    const FrontOpening& now = fracture.openings()[i];
+    if (!sample || now.opening.isZero(0)) continue;
+    const FrontHistory::Entry* before = fracture.history().find(crack.points[i].correlation);
+    if (before->seen != crack.sheet.frame - 1) continue;
+    sample->opening = in_frame(before->frame, now.opening);
+    sample->driving_after = now.intensity;
+    if (!around || around->complete(crack, i, *sample)) samples_.add(*sample);
   }
+  if (around) around->remember(crack, fracture.openings());
 }
 
 void FrameWriter::on_opening(const Fracture& fracture) {

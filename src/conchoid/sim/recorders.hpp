@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/sample.hpp"
 #include "conchoid/sim/fracture.hpp"
+#include "conchoid/sim/front_surroundings.hpp"
 
 namespace conchoid {
 
@@ -30,14 +32,22 @@ class GrowthRecorder : public FractureObserver {
   double largest_ = 0;
 };
 
-/// Training samples of a run by boundary elements: front elements paired over two frames. Frames that were
-/// not solved give none, nor do openings that linear elasticity does not know (kLargestOpening).
+/// Training samples of a run by boundary elements: front elements paired over two successive frames, one for each
+/// correlation node: that of the nearest point. Frames that were not solved give none.
 class SampleRecorder : public FractureObserver {
  public:
+  /// What samples hold: all fields, or those alone that cost nothing.
+  enum class Fields { free, all };
+  explicit SampleRecorder(Fields fields = Fields::free) : fields_(fields) {}
   void on_opening(const Fracture& fracture) override;
   SampleSet take() { return std::move(samples_); }
 
  private:
+  FrontSurroundings* surroundings(const Fracture& fracture);
+
+  Fields fields_;
+  const PreparedBody* body_ = nullptr;  // that the surroundings are of
+  std::unique_ptr<FrontSurroundings> surroundings_;
   SampleSet samples_;
 };
 

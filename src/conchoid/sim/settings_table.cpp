@@ -1,6 +1,7 @@
 #include "conchoid/sim/settings.hpp"
 
 #include "conchoid/material/library.hpp"
+#include "conchoid/sim/world_bodies.hpp"
 
 // The tables and keys there are. What is made of them is in settings.cpp.
 namespace conchoid {
@@ -52,6 +53,10 @@ const std::vector<SettingTable>& setting_tables() {
       {"output", false, true, "What the pieces are written as, and how they look."},
       {"database", false, false,
        "How the loads of the runs are drawn: a traction on one region, and mostly its opposite on another."},
+      {"world", false, false,
+       "In place of a scene: body, supports, material, cracks and load of every run are drawn at random, "
+       "from "
+       "database.seed. Of [database] it takes runs, seed, frames, many_cracks and tiny_growth."},
   };
   return tables;
 }
@@ -482,6 +487,21 @@ const std::vector<Setting>& settings() {
        "from so many new cracks on, all of them tiny, a run is not learned from", between(1, 10000)},
       {"database", "tiny_growth", number, "crack edges", "2.0",
        "a crack is tiny if its front has travelled less", between(0, 1e6)},
+
+      {"world",
+       "classes",
+       texts,
+       "",
+       "",
+       "classes of bodies, drawn in turn; without it all of them",
+       {},
+       0,
+       body_class_names()},
+      {"world", "runs_per_body", integer, "runs", "4", "loads on each body, one run each",
+       between(1, 100000)},
+      {"world", "elements", integer, "triangles", "240", "BEM triangles wanted per body", between(60, 20000)},
+      {"world", "cracked", number, "", "0.3", "share of the bodies that have a crack from the start",
+       between(0, 1)},
   };
   return all;
 }

@@ -5,15 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "conchoid/bem/cracked_body.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/sim/crack_sizes.hpp"
 #include "conchoid/sim/front_gaps.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr double kShear = 1.0 / 3;   // cosine of the largest kink, 70.53° of pure mode II
-constexpr double kDepth = 0.25;      // × r̄: nearer to the surface the stress is that of this depth
 constexpr int kSmoothingPasses = 2;  // of ¼, ½, ¼ along the front
 constexpr double kNoStress = 1e-12;  // share of the largest principal stress that is none
 
@@ -36,22 +35,6 @@ Pull principal_pull(const Mat3& stress, const FrontFrame& frame) {
   Vec3 v = eigen.eigenvectors().col(best < 0 ? nearest : best);
   if (v[0] < 0) v = -v;
   return {eigen.eigenvalues()[best < 0 ? nearest : best], v};
-}
-
-/// What of a crack a point of its front feels.
-struct CrackSize {
-  double area = 0;  // [m²]
-  bool at_surface = false;
-};
-
-std::vector<CrackSize> crack_sizes(const CrackState& crack, const std::vector<int>& part) {
-  std::vector<CrackSize> sizes(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
-  for (std::size_t t = 0; t < crack.trimmed.triangle_count(); ++t)
-    sizes[part[crack.trimmed.corners[TriId(t)][0].index()]].area +=
-        area_vector(crack.trimmed, TriId(t)).norm();
-  for (const Edge& edge : crack.cut.mouth)
-    sizes[part[edge.a.index()]].at_surface = true;
-  return sizes;
 }
 
 void smooth(const std::vector<PointChain>& chains, std::vector<Mat3>& stress) {
@@ -87,51 +70,16 @@ Vec3 intensity_from_stress(const Mat3& stress, const FrontFrame& frame, double a
 }
 
 StressOpening::StressOpening(const PredictionContext& context)
-    : PredictedOpening(context),
-      bem_(context.bem),
-      surface_(context.body.surface),
-      elastic_(context.body.elastic),
-      infinite_(context.body.infinite()),
-      crack_edge_(context.body.crack_edge) {}
-
-const CrackedBody& StressOpening::uncracked() const {
-  if (!uncracked_ || loads_ != bem_.loads()) {
-    uncracked_ = std::make_unique<CrackedBody>(elastic_, bem_.body().load());
-    uncracked_->solve();
-    loads_ = bem_.loads();
-  }
-  return *uncracked_;
-}
-
-std::vector<Mat3> StressOpening::stress_at_points(const CrackState& crack) const {
-  std::vector<Vec3> at;
-  for (const FrontPoint& point : crack.points)
-    at.push_back(crack.sheet.mesh.positions[point.node]);
-  if (infinite_) {
-    std::vector<Mat3> stress;
-    for (const Vec3& x : at)
-      stress.push_back(bem_.body().load().ambient.stress(x));
-    return stress;
-  }
-  const double depth = kDepth * crack_edge_;
-  for (Vec3& x : at) {
-    const ClosestPointTree::Hit hit = surface_.closest(x);
-    const double distance = std::sqrt(hit.squared_distance);
-    if (distance < depth && distance > 0) x = hit.point + depth / distance * (x - hit.point);
-  }
-  return uncracked().interior_stress(at);
-}
+    : PredictedOpening(context), bem_(context.bem), uncracked_(context.body) {}
 
 std::vector<FrontOpening> StressOpening::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
-  std::vector<Mat3> stress = stress_at_points(crack);
+  std::vector<Mat3> stress = uncracked_.at_points(crack, bem_.body().load(), bem_.loads());
   smooth(point_chains(crack), stress);
-  const std::vector<int> part = connected_parts(crack.trimmed);
-  const std::vector<CrackSize> sizes = crack_sizes(crack, part);
+  const std::vector<CrackSize> sizes = crack_sizes(crack);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const FrontPoint& point = crack.points[i];
-    const NodeId node = crack.node_in_cut[point.node];
-    const CrackSize size = node.valid() ? sizes[part[node.index()]] : CrackSize{};
+    const CrackSize& size = sizes[i];
     out[i].known = size.area > 0;
     if (!out[i].known) continue;
     const double factor = size.at_surface ? kSurfaceFactor : kEmbeddedFactor;

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <memory>
-
-#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/sim/predicted_opening.hpp"
+#include "conchoid/sim/uncracked_stress.hpp"
 
 namespace conchoid {
 
@@ -37,16 +35,9 @@ class StressOpening : public PredictedOpening {
 
  private:
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
-  std::vector<Mat3> stress_at_points(const CrackState& crack) const;
-  const CrackedBody& uncracked() const;
 
   BemOpening& bem_;
-  ClosestPointTree surface_;
-  std::shared_ptr<const BodyOperator> elastic_;
-  bool infinite_;
-  double crack_edge_;
-  mutable std::unique_ptr<CrackedBody> uncracked_;  // under the load of that number
-  mutable std::size_t loads_ = 0;
+  mutable UncrackedStress uncracked_;
 };
 
 }  // namespace conchoid

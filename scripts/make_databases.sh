@@ -1,0 +1,16 @@
+#!/bin/sh
+# Makes the trained regressors that come with the program: databases/*.forest from the specifications beside them.
+# scripts/make_databases.sh [CONCHOID [WORK]] — WORK keeps the databases of runs (some 100 MB), to go on after a stop.
+set -eu
+cd "$(dirname "$0")/.."
+conchoid=${1:-build/conchoid}
+work=${2:-build/databases-work}
+mkdir -p "$work"
+for name in cube cylinder bar world; do
+  "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
+done
+for name in cube cylinder bar; do
+  "$conchoid" forest train "$work/$name.h5" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
+done
+"$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
+  --features versatile --trees 30 --depth 13 --leaf 20 --out databases/versatile.forest

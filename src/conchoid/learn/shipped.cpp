@@ -1,0 +1,58 @@
+#include "conchoid/learn/shipped.hpp"
+
+#include <algorithm>
+
+#include "conchoid/core/error.hpp"
+
+namespace conchoid {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The program lies in the build folder, or in bin/ of what was installed.
+std::vector<fs::path> folders() {
+  std::vector<fs::path> all;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error)
+    for (const char* from_program : {"databases", CONCHOID_DATABASES_FROM_PROGRAM})
+      all.push_back((program.parent_path() / from_program).lexically_normal());
+  all.emplace_back(CONCHOID_SOURCE_DATABASES);
+  all.emplace_back(CONCHOID_INSTALLED_DATABASES);
+  return all;
+}
+
+std::string known_names() {
+  std::string names;
+  for (const std::string_view name : shipped_names())
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& shipped_names() {
+  static const std::vector<std::string_view> names = {"cube", "cylinder", "bar", "versatile"};
+  return names;
+}
+
+fs::path shipped_file(std::string_view name) {
+  std::string looked_in;
+  for (const fs::path& folder : folders()) {
+    const fs::path file = folder / (std::string(name) + ".forest");
+    if (fs::exists(file)) return file;
+    looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
+  }
+  throw InputError("the database \"" + std::string(name) + "\" comes with conchoid, but is not in " +
+                   looked_in + "; install it again, or train one with `conchoid forest train`");
+}
+
+fs::path database_file(const std::string& name_or_file) {
+  if (fs::exists(name_or_file)) return name_or_file;
+  const auto& names = shipped_names();
+  if (std::find(names.begin(), names.end(), name_or_file) != names.end()) return shipped_file(name_or_file);
+  throw InputError(name_or_file + ": is no file, and no database that comes with conchoid; those are " +
+                   known_names() + "; another is a file written by `conchoid forest train`");
+}
+
+}  // namespace conchoid

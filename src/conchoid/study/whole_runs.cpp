@@ -1,0 +1,134 @@
+#include "conchoid/study/whole_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/core/progress.hpp"
+#include "conchoid/learn/summary.hpp"
+#include "conchoid/sim/breakup.hpp"
+#include "conchoid/sim/make_runs.hpp"
+#include "conchoid/sim/methods.hpp"
+#include "conchoid/study/surface_distance.hpp"
+
+namespace conchoid {
+namespace {
+
+struct Outcome {
+  StopReason stop = StopReason::intact;
+  int frames = 0;
+  double opening_seconds = 0;
+  TriMesh crack;
+};
+
+class OpeningClock : public FractureObserver {
+ public:
+  void on_step(const Fracture&, const StepReport& step) override { seconds_ += step.opening_seconds; }
+  double seconds() const { return seconds_; }
+
+ private:
+  double seconds_ = 0;
+};
+
+Outcome outcome_of(const PreparedRun& run, const RunMethod& how, int frames) {
+  const OpeningMethod& method = checked_method(how.method, how.regressor);
+  BreakupSettings settings{BreakupSettings::After::stop};
+  settings.source = [&](const PreparedBody& body) -> MakeOpeningSource {
+    return [&](BemOpening& bem) {
+      return method.make({{bem, body.material, body, sif_settings(run.scene.run), 0}, how.regressor});
+    };
+  };
+  Breakup breakup(run.scene, run.body, settings);
+  OpeningClock clock;
+  breakup.add_observer(clock);
+  Outcome out;
+  out.stop = breakup.run(frames);
+  if (out.stop == StopReason::interrupted) throw Interrupted("interrupted");
+  out.frames = breakup.frame();
+  out.opening_seconds = clock.seconds();
+  out.crack = breakup.take_pieces().crack;
+  return out;
+}
+
+double apart(const TriMesh& a, const TriMesh& b, double diagonal) {
+  const double mean = symmetric_distance(a, b).mean / diagonal;
+  return std::isfinite(mean) ? mean : 1;
+}
+
+// None where boundary elements say nothing.
+std::vector<WholeRun> compared(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
+                               std::int32_t number, const std::vector<RunMethod>& methods, int least_frames) {
+  std::vector<WholeRun> rows;
+  try {
+    const PreparedRun run = prepare_run(spec, body, number);
+    const Outcome solved = outcome_of(run, {"BEM", "bem", nullptr}, spec.exclusion.frame_limit);
+    if (solved.frames < least_frames || solved.stop == StopReason::frame_limit) return {};
+    const double diagonal = bounding_box(run.body->surface).diagonal();
+    for (const RunMethod& method : methods) {
+      throw_if_interrupted();
+      const Outcome made = outcome_of(run, method, 2 * solved.frames + 4);
+      const double distance = apart(solved.crack, made.crack, diagonal);
+      rows.push_back({number, run.record.body_class, method.title, made.stop, solved.stop, made.frames,
+                      solved.frames, distance, distance * diagonal / bounding_box(solved.crack).diagonal(),
+                      made.opening_seconds, solved.opening_seconds});
+    }
+  } catch (const ComputationError&) {  // neither is a fault of a method: the run cannot be made
+    rows.clear();
+  } catch (const InputError&) {
+    if (!spec.world) throw;
+    rows.clear();
+  }
+  return rows;
+}
+
+double quantile(std::vector<double> values, double level) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::ceil(level * static_cast<double>(values.size() - 1)))];
+}
+
+}  // namespace
+
+WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
+                     const std::vector<RunMethod>& methods, int least_frames) {
+  const auto body = spec.world ? nullptr : std::make_shared<const PreparedBody>(prepare(spec.scene));
+  std::vector<std::vector<WholeRun>> of_run(runs.size());
+  Progress progress("runs", runs.size());
+  parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
+    throw_if_interrupted();
+    of_run[i] = compared(spec, body, runs[i], methods, least_frames);
+    progress.advance();
+  });
+  WholeRuns out;
+  for (const auto& rows : of_run) {
+    out.rows.insert(out.rows.end(), rows.begin(), rows.end());
+    out.left_out += rows.empty() ? 1 : 0;
+  }
+  return out;
+}
+
+std::map<std::pair<std::string, std::string>, WholeRunScore> scores(const WholeRuns& runs) {
+  std::map<std::pair<std::string, std::string>, std::vector<const WholeRun*>> groups;
+  for (const WholeRun& row : runs.rows)
+    for (const std::string& of : {row.body_class, std::string()})
+      groups[{of, row.title}].push_back(&row);
+  std::map<std::pair<std::string, std::string>, WholeRunScore> out;
+  for (const auto& [key, rows] : groups) {
+    std::vector<double> surface, ratio;
+    WholeRunScore& score = out[key];
+    for (const WholeRun* row : rows) {
+      surface.push_back(row->surface);
+      ratio.push_back(static_cast<double>(row->frames) / row->solved_frames);
+      score.lost += row->stop == StopReason::frame_limit ? 1 : 0;
+    }
+    score.runs = static_cast<int>(rows.size());
+    score.median = statistics(surface).median;
+    score.p95 = quantile(surface, 0.95);
+    score.largest = statistics(surface).maximum;
+    score.frames_ratio = statistics(ratio).median;
+  }
+  return out;
+}
+
+}  // namespace conchoid

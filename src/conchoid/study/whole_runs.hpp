@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "conchoid/io/outcome.hpp"
+#include "conchoid/learn/regressor.hpp"
+#include "conchoid/sim/database_spec.hpp"
+
+namespace conchoid {
+
+/// A method that whole runs are made by (sim/methods.hpp).
+struct RunMethod {
+  std::string title;   ///< in tables
+  std::string method;  ///< by name
+  const Regressor* regressor = nullptr;
+};
+
+/// A run by one method beside the same solved by boundary elements. Both end with the first separation.
+struct WholeRun {
+  std::int32_t run = 0;
+  std::string body_class, title;
+  StopReason stop = StopReason::intact, solved_stop = StopReason::intact;
+  int frames = 0, solved_frames = 0;
+  double surface =
+      0;  ///< mean distance of the crack surfaces / diagonal of the body; 1: only one has a crack
+  double of_crack = 0;                     ///< the same / diagonal of the solved crack
+  double seconds = 0, solved_seconds = 0;  ///< of finding openings
+};
+
+/// Runs of a specification, of which no more than a few should be in any database that regressors were trained on. Runs
+/// that boundary elements end within less than `least_frames`, or cannot compute, say nothing and are left out. A
+/// method has 2 n + 4 frames, n those solved. Runs are made in parallel; the answer does not depend on the number of threads.
+struct WholeRuns {
+  std::vector<WholeRun> rows;  ///< run after run, methods in their order
+  int left_out = 0;            ///< runs
+};
+WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
+                     const std::vector<RunMethod>& methods, int least_frames = 4);
+
+/// What a method does over the runs of a class.
+struct WholeRunScore {
+  int runs = 0;
+  double median = 0, p95 = 0, largest = 0;  ///< of WholeRun::surface
+  double frames_ratio = 0;                  ///< median of frames / solved frames
+  int lost = 0;  ///< runs at the frame limit that boundary elements ended otherwise
+};
+/// By class and title; the class "" is all of them together.
+std::map<std::pair<std::string, std::string>, WholeRunScore> scores(const WholeRuns& runs);
+
+}  // namespace conchoid

@@ -1,0 +1,50 @@
+#include "conchoid/learn/shipped.hpp"
+
+#include <gtest/gtest.h>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/learn/regressor.hpp"
+#include "temporary_folder.hpp"
+
+namespace conchoid {
+namespace {
+
+TEST(Shipped, EveryDatabaseIsFoundByNameAndReads) {
+  std::uintmax_t bytes = 0;
+  for (const std::string_view name : shipped_names()) {
+    const std::filesystem::path file = database_file(std::string(name));
+    const auto regressor = load_regressor(file);
+    EXPECT_EQ(regressor->name(), "forest");
+    EXPECT_EQ(regressor->feature_set(), FeatureSet::versatile) << name;
+    EXPECT_GT(regressor->provenance().runs, 20u) << name;
+    EXPECT_FALSE(regressor->provenance().spec.empty()) << name;
+    bytes += std::filesystem::file_size(file);
+  }
+  EXPECT_LT(bytes, std::uintmax_t{6} << 20);
+}
+
+TEST(Shipped, TheStandardOneKnowsManyClassesOfBodies) {
+  EXPECT_GE(load_regressor(database_file(std::string(kStandardDatabase)))->provenance().models.size(), 9u);
+}
+
+TEST(Shipped, AFileOfTheUsersGoesFirst) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder / "my.forest";
+  std::filesystem::copy_file(shipped_file("bar"), file);
+  EXPECT_EQ(database_file(file.string()), file);
+}
+
+TEST(Shipped, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+  try {
+    database_file("teapot");
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(text.rfind("teapot: ", 0), 0u) << text;
+    for (const std::string_view name : shipped_names())
+      EXPECT_NE(text.find(name), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace conchoid

@@ -1,0 +1,106 @@
+#include "conchoid/sim/front_surroundings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "conchoid/core/error.hpp"
+#include "conchoid/sim/fracture.hpp"
+#include "conchoid/sim/recorders.hpp"
+#include "conchoid/sim/run.hpp"
+#include "scenes.hpp"
+
+namespace conchoid {
+namespace {
+
+constexpr double kRadius = 0.2, kStress = 1e7;
+
+struct Measured {
+  CrackState crack;
+  std::vector<Sample> samples;  // of the points, as if the crack had stood still for a frame
+};
+
+/// The cube pulled along z with a disc across its middle: everything about it is known.
+Measured disc_in_cube() {
+  const Scene scene = test::scene_from_text(test::cracked_cube_text("", 0.1, 0.02));
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  Fracture fracture(body, load_of(scene, *body), scene.run);
+  Measured out;
+  struct Keep : FractureObserver {
+    explicit Keep(Measured& to) : out(to) {}
+    void on_opening(const Fracture& f) override {
+      out.crack = f.crack();
+      FrontSurroundings around(f.body());
+      around.measure(f.crack(), f.load(), 0);
+      around.remember(f.crack(), f.openings());
+      CrackState still = f.crack();
+      ++still.sheet.frame;
+      for (FrontPoint& point : still.points)
+        point.correlation = point.node;
+      around.measure(still, f.load(), 0);
+      for (std::size_t i = 0; i < still.points.size(); ++i) {
+        Sample s;
+        EXPECT_TRUE(around.complete(still, i, s));
+        out.samples.push_back(s);
+      }
+    }
+    Measured& out;
+  } keep(out);
+  fracture.add_observer(keep);
+  fracture.step();
+  return out;
+}
+
+TEST(FrontSurroundings, ADiscInAPulledCubeIsDescribedExactly) {
+  const Measured m = disc_in_cube();
+  ASSERT_GT(m.samples.size(), 10u);
+  for (std::size_t i = 0; i < m.samples.size(); ++i) {
+    const Sample& s = m.samples[i];
+    const Vec3& x = m.crack.sheet.mesh.positions[m.crack.points[i].node];
+    const Vec3 out = Vec3(x[0], x[1], 0).normalized();
+    const double reach = out.cwiseAbs().maxCoeff();
+    EXPECT_NEAR(s.surface_distance_after, 0.5 / reach - kRadius, 0.01);
+    EXPECT_NEAR(s.wall_distance_after, 0.5 - kRadius * reach, 1e-9);
+    EXPECT_NEAR(s.front_curvature_after, 1 / kRadius, 0.1);
+    EXPECT_NEAR(s.traction_after[0], kStress, 0.02 * kStress);
+    EXPECT_NEAR(s.traction_after[1], 0, 0.02 * kStress);
+    EXPECT_NEAR(s.lateral_after.norm(), 0, 0.03 * kStress);
+    EXPECT_NEAR(s.crack_radius, kRadius, 0.01);
+    EXPECT_NEAR(s.turn.norm(), 0, 1e-12) << "it stands still";
+    EXPECT_NEAR(s.driving[0], 2 * kStress * std::sqrt(kRadius / std::numbers::pi), 0.2 * s.driving[0]);
+    EXPECT_NEAR((s.driving - s.driving_front).norm(), 0, 0.1 * s.driving[0]);
+    EXPECT_EQ(s.traction, s.traction_after);
+  }
+  // Edges of the front times what lies ahead of them: between the rings of radius 0.5 and 0.5 √2, cut off straight ahead.
+  const double share = m.samples[0].ligament_share;
+  EXPECT_GT(share, 0.6);
+  EXPECT_LT(share, 0.9);
+}
+
+TEST(FrontSurroundings, RecordedSamplesPairSuccessiveFramesOncePerCorrelationNode) {
+  const Scene scene = test::scene_from_text(test::pulled_cube_text());
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  Fracture fracture(body, load_of(scene, *body), scene.run);
+  SampleRecorder recorder(SampleRecorder::Fields::all);
+  fracture.add_observer(recorder);
+  for (int frame = 0; frame < 6 && fracture.step().moving; ++frame) {
+  }
+  const SampleSet samples = recorder.take();
+  ASSERT_GT(samples.size(), 20u);
+  EXPECT_NO_THROW(samples.validate());
+  EXPECT_NO_THROW(require_recorded(FeatureSet::versatile, samples));
+  EXPECT_NO_THROW(require_recorded(FeatureSet::dimensionless_context, samples));
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample s = samples[i];
+    EXPECT_TRUE(seen.insert({s.frame, s.node}).second) << "frame " << s.frame << ", node " << s.node;
+    EXPECT_GT(s.driving.norm(), 0);
+    EXPECT_GE(s.ligament_share, 0);
+    EXPECT_LE(s.ligament_share, 1);
+  }
+}
+
+}  // namespace
+}  // namespace conchoid
