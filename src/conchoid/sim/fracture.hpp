@@ -19,6 +19,8 @@ class Fracture;
 /// × r̄: openings beyond it, a triangle behind the front, say nothing in linear elasticity: a piece hangs by a
 /// ligament. No sample is taken from them, and the ligament breaks straight ahead.
 inline constexpr double kLargestOpening = 3;
+/// Whether K stands for such an opening. @param crack_edge  r̄ [m]
+bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m);
 
 /// What a point of the front does in a frame; in the order of CrackState::points.
 struct FrontDecision {
@@ -30,15 +32,16 @@ struct FrontDecision {
 
 /// What one step did.
 struct StepReport {
-  int frame = 0;                    ///< 1 for the first; 0 if there was nothing to do
-  bool moving = false;              ///< another step may change something: `stop` is empty
-  std::optional<StopReason> stop;   ///< arrested, separated, intact or singular
-  std::string source;               ///< who gave the opening: "bem", "steady", …, "carried"
-  std::size_t front_points = 0;     ///< of the coarse fronts inside the body, before the advance
-  std::size_t crack_triangles = 0;  ///< boundary elements of the cracks, after the advance
-  std::size_t new_cracks = 0;       ///< that started in this step
-  StressPeak start;                 ///< where the first of these started, and the stress that made it
-  double largest_intensity = 0;     ///< K_eff [Pa√m]
+  int frame = 0;                         ///< 1 for the first; 0 if there was nothing to do
+  bool moving = false;                   ///< another step may change something: `stop` is empty
+  std::optional<StopReason> stop;        ///< arrested, separated, intact or singular
+  std::string source;                    ///< who gave the opening: "bem", "steady", …, "carried"
+  std::optional<double> expected_error;  ///< of the surface so far (OpeningSource::expected_error)
+  std::size_t front_points = 0;          ///< of the coarse fronts inside the body, before the advance
+  std::size_t crack_triangles = 0;       ///< boundary elements of the cracks, after the advance
+  std::size_t new_cracks = 0;            ///< that started in this step
+  StressPeak start;                      ///< where the first of these started, and the stress that made it
+  double largest_intensity = 0;          ///< K_eff [Pa√m]
   std::vector<std::string> warnings;
   double start_seconds = 0;  ///< of looking for the first crack in the body without one, in the first step
   double opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
@@ -113,6 +116,8 @@ class Fracture {
   const std::vector<FrontDecision>& decisions() const;
   /// Whether these come from a solution, and not from a prediction or from frames before.
   bool solved() const;
+  /// Whether a source other than the boundary elements gives the openings of some frames.
+  bool predicts() const;
   /// The body as it was last solved: displacement, traction, stress.
   const CrackedBody& solution() const;
   /// What fronts were like in the frames before.

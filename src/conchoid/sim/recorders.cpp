@@ -32,7 +32,7 @@ void GrowthRecorder::on_opening(const Fracture& fracture) {
 }
 
 void SampleRecorder::on_opening(const Fracture& fracture) {
-  if (!fracture.solved()) return;
+  if (!fracture.solved() || fracture.predicts()) return;
   const CrackState& crack = fracture.crack();
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     auto sample = fracture.history().sample(crack, crack.points[i]);
