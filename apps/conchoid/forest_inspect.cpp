@@ -79,7 +79,9 @@ ordered_json neighbours_json(const NeighbourCoverage& c) {
           {"median", c.median},
           {"p95", c.p95},
           {"own_median", c.own_median},
-          {"own_p95", c.own_p95}};
+          {"own_p95", c.own_p95},
+          {"labels_apart", per_mode(c.labels_apart)},
+          {"own_labels_apart", per_mode(c.own_labels_apart)}};
 }
 
 ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples) {
@@ -174,12 +176,16 @@ std::string coverage_text(const ordered_json& c) {
                         f["median"].get<double>(), f["training_median"].get<double>());
   if (!c.contains("neighbours")) return text;
   const auto& n = c["neighbours"];
-  return text + fmt::format(
-                    "\n{:.1f} % of the samples have a neighbour in the training as near as its own have"
-                    "\ndistance of the nearest: median {:.4f}, 95 % {:.4f}; within the training {:.4f}, "
-                    "{:.4f}",
-                    100 * n["covered"].get<double>(), n["median"].get<double>(), n["p95"].get<double>(),
-                    n["own_median"].get<double>(), n["own_p95"].get<double>());
+  text += fmt::format(
+      "\n{:.1f} % of the samples have a neighbour in the training as near as its own have"
+      "\ndistance of the nearest: median {:.4f}, 95 % {:.4f}; within the training {:.4f}, {:.4f}"
+      "\nlabel against that of the nearest, over the labels' deviation; within the training",
+      100 * n["covered"].get<double>(), n["median"].get<double>(), n["p95"].get<double>(),
+      n["own_median"].get<double>(), n["own_p95"].get<double>());
+  for (const char* mode : kModes)
+    text += fmt::format("\n  {:<28}{:10.3f}{:10.3f}", mode, n["labels_apart"][mode].get<double>(),
+                        n["own_labels_apart"][mode].get<double>());
+  return text;
 }
 
 std::string accuracy_text(const ordered_json& scores) {

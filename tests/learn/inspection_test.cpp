@@ -87,6 +87,19 @@ TEST(NeighbourCoverage, OfOtherRunsOfTheSameKindIsNearlyWhole) {
   EXPECT_LT(c.median, 1.5 * c.own_median);
 }
 
+// The same features, but K_II goes on by another rule.
+TEST(NeighbourCoverage, TellsWhatFollowsOtherwiseFromTheSameFeatures) {
+  SampleSet other;
+  for (int run = 40; run < 50; ++run)
+    other.append(test::synthetic_run(run, 8, 10, 1.2, -1));
+  const NeighbourCoverage same = neighbour_coverage(ridge(FeatureSet::paper_4), runs(0, 40), runs(40, 10)),
+                          turned = neighbour_coverage(ridge(FeatureSet::paper_4), runs(0, 40), other);
+  EXPECT_EQ(turned.covered, same.covered);
+  EXPECT_NEAR(turned.labels_apart[0], same.labels_apart[0], 1e-9);
+  EXPECT_GT(turned.labels_apart[1], 2 * same.labels_apart[1]);
+  EXPECT_LT(same.labels_apart[1], 2 * same.own_labels_apart[1]);
+}
+
 TEST(NeighbourCoverage, OfOtherLoadsIsNone) {
   const NeighbourCoverage c = neighbour_coverage(ridge(FeatureSet::paper_4), runs(0, 40), runs(40, 10, 1000));
   EXPECT_LT(c.covered, 0.05);

@@ -102,20 +102,54 @@ double squared_distance(std::span<const double> a, std::span<const double> b,
   return sum;
 }
 
-/// Distances of rows from the nearest of some others. @param skip  whether not to count that pair
+/// Nearest of some other rows.
+struct Nearest {
+  std::size_t row = 0;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// @param skip  whether not to count that pair
 template <class Skip>
-std::vector<double> nearest_distances(const FeatureMatrix& from, const FeatureMatrix& to,
-                                      const std::vector<double>& scales, const Skip& skip) {
-  std::vector<double> out(from.rows());
+std::vector<Nearest> nearest_rows(const FeatureMatrix& from, const FeatureMatrix& to,
+                                  const std::vector<double>& scales, const Skip& skip) {
+  std::vector<Nearest> out(from.rows());
   parallel_for(out.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t j = 0; j < to.rows(); ++j)
-        if (!skip(i, j)) least = std::min(least, squared_distance(from.row(i), to.row(j), scales));
-      out[i] = std::sqrt(least);
+      for (std::size_t j = 0; j < to.rows(); ++j) {
+        if (skip(i, j)) continue;
+        const double d = squared_distance(from.row(i), to.row(j), scales);
+        if (d < out[i].distance) out[i] = {j, d};
+      }
+      out[i].distance = std::sqrt(out[i].distance);
     }
   });
   return out;
+}
+
+std::vector<double> distances(const std::vector<Nearest>& nearest) {
+  std::vector<double> out;
+  for (const Nearest& n : nearest)
+    out.push_back(n.distance);
+  return out;
+}
+
+std::vector<Vec3> labels_of(const SampleSet& samples, FeatureSet set) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    out.push_back(label(samples[i], set));
+  return out;
+}
+
+/// Root mean square difference from the labels of the nearest, over the deviation of the latter's whole set.
+Vec3 labels_apart(const std::vector<Vec3>& labels, const std::vector<Nearest>& nearest,
+                  const std::vector<Vec3>& there) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    sum += (labels[i] - there[nearest[i].row]).cwiseAbs2() / static_cast<double>(labels.size());
+  const Vec3 spread = variance(there);
+  for (int mode = 0; mode < 3; ++mode)
+    sum[mode] = spread[mode] > 0 ? std::sqrt(sum[mode] / spread[mode]) : 0;
+  return sum;
 }
 
 }  // namespace
@@ -126,9 +160,7 @@ std::vector<FeatureInfluence> feature_influences(const Regressor& regressor, con
   const SampleSet samples = at_most(all, kInfluenceSamples);
   const FeatureSet set = regressor.feature_set();
   const FeatureMatrix rows = feature_matrix(samples, set);
-  std::vector<Vec3> labels;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    labels.push_back(label(samples[i], set));
+  const std::vector<Vec3> labels = labels_of(samples, set);
   const Vec3 error = mean_square_error(regressor.predict(rows), labels), spread = variance(labels);
   std::vector<FeatureInfluence> out;
   for (std::size_t c = 0; c < rows.columns; ++c) {
@@ -176,20 +208,27 @@ NeighbourCoverage neighbour_coverage(const Regressor& regressor, const SampleSet
   require_some(training);
   const FeatureSet set = regressor.feature_set();
   const std::vector<double> scales = feature_scales(regressor);
-  const SampleSet some = at_most(training, kNeighbourSamples);
+  const SampleSet some = at_most(samples, kNeighbourSamples),
+                  of_training = at_most(training, kNeighbourSamples);
   const FeatureMatrix there = feature_matrix(training, set);
-  const std::vector<double> own =
-      nearest_distances(feature_matrix(some, set), there, scales,
-                        [&](std::size_t i, std::size_t j) { return some.run()[i] == training.run()[j]; });
-  if (!std::isfinite(own.front()))
+  const std::vector<Nearest> own =
+      nearest_rows(feature_matrix(of_training, set), there, scales,
+                   [&](std::size_t i, std::size_t j) { return of_training.run()[i] == training.run()[j]; });
+  if (!std::isfinite(own.front().distance))
     throw InputError(
         "the training samples are of one run alone, which says nothing of how far others lie; "
         "name the database that the regressor was trained on");
-  const std::vector<double> distance =
-      nearest_distances(feature_matrix(at_most(samples, kNeighbourSamples), set), there, scales,
-                        [](std::size_t, std::size_t) { return false; });
-  NeighbourCoverage out{quantile(distance, 0.5), quantile(distance, 0.95), quantile(own, 0.5),
-                        quantile(own, 0.95), 0};
+  const std::vector<Nearest> nearest =
+      nearest_rows(feature_matrix(some, set), there, scales, [](std::size_t, std::size_t) { return false; });
+  const std::vector<double> distance = distances(nearest), own_distance = distances(own);
+  const std::vector<Vec3> labels = labels_of(training, set);
+  NeighbourCoverage out{quantile(distance, 0.5),
+                        quantile(distance, 0.95),
+                        quantile(own_distance, 0.5),
+                        quantile(own_distance, 0.95),
+                        0,
+                        labels_apart(labels_of(some, set), nearest, labels),
+                        labels_apart(labels_of(of_training, set), own, labels)};
   const auto near =
       std::count_if(distance.begin(), distance.end(), [&](double d) { return d <= out.own_p95; });
   out.covered = static_cast<double>(near) / static_cast<double>(distance.size());

@@ -50,6 +50,10 @@ struct NeighbourCoverage {
   double median = 0, p95 = 0;          ///< distance of the samples from their nearest ones in the training
   double own_median = 0, own_p95 = 0;  ///< the same within the training, between different runs
   double covered = 0;                  ///< share of samples that are nearer than own_p95
+  /// Root mean square difference of the label from that of the nearest sample of the training, per mode over the
+  /// standard deviation of the labels there; the same within the training, between different runs. Where samples
+  /// are near and their labels far, what follows from the same features is another.
+  Vec3 labels_apart = Vec3::Zero(), own_labels_apart = Vec3::Zero();
 };
 /// At most kNeighbourSamples of either count for the distances from, all of the training for those to.
 /// Throws InputError for no samples, or training samples of one run alone.
