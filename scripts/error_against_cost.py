@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Error against cost of --method hybrid, from prediction alone to boundary elements, on bodies of three sizes; writes the
-table of docs/prediction.md and data for its plot. Cost is instructions (callgrind, one thread) spent on finding the
+table of docs/hybrid.md and data for its plot. Cost is instructions (callgrind, one thread) spent on finding the
 opening, over those of boundary elements: it does not depend on what else the machine does.
 
   scripts/error_against_cost.py CONCHOID OUT [--database FOREST] [--tolerances 0.02,0.01,…] [--every 2,3] [--sizes 120,500]

@@ -22,7 +22,7 @@ namespace conchoid {
 ///                                                 errors of different stretches know nothing of each other
 /// d = √(D² + e²) is what is expected. A frame's strip of new surface counts with the mean of d before and after,
 /// the surface with the mean of its strips by their numbers of points. Everything is over the body's diagonal.
-/// Calibrated on whole runs: docs/prediction.md.
+/// Calibrated on whole runs: docs/hybrid.md.
 class ExpectedError {
  public:
   /// @param diagonal  of the body [m]; @param crack_edge  r̄ [m]

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "conchoid/core/progress.hpp"
 #include "conchoid/crack/intensity/stress_intensity.hpp"
@@ -157,61 +159,81 @@ std::vector<ComparedScene> bodies_of_three_sizes(const Workshop& workshop) {
   return out;
 }
 
-std::vector<std::string> cost_row(const std::string& scene, const MethodChoice& method, const RunData& run,
-                                  const RunData& bem, const Comparison& c) {
-  const RunDocument& d = run.document;
-  return {scene,
-          method.title,
-          fmt::format("{}", d.frames),
-          fmt::format("{}", d.solved_frames),
-          d.expected_error ? percent_text(*d.expected_error) : "–",
-          percent_text(c.surface_mean / c.bbox_diagonal),
-          number_text(d.opening_seconds / bem.document.opening_seconds),
-          number_text(d.opening_seconds)};
+MethodChoice by_hybrid(const Regressor* regressor, double tolerance) {
+  return {.title = fmt::format("{}, X = {}", regressor ? "RF(Cube)" : "kept", tolerance),
+          .method = "hybrid",
+          .regressor = regressor,
+          .tolerance = tolerance};
+}
+
+/// A table of runs, error over cost, and the expected error against the true one.
+struct CostStudy {
+  ReportTable table;
+  std::vector<ReportPlot> plots;
+  ReportPlot expected;
+};
+
+// Boundary elements are the run with X = 0, made in the same hour as the others.
+void add_costs(Workshop& workshop, const ComparedScene& scene, const Regressor* regressor,
+               std::span<const double> tolerances, CostStudy& study, Progress& progress) {
+  const auto run_with = [&](double tolerance) -> const RunData& {
+    return workshop.run(scene.text, limited(workshop, scene.text, by_hybrid(regressor, tolerance)));
+  };
+  const RunData& solved = run_with(0);
+  const std::string name = regressor ? "RF(Cube)" : "kept";
+  PlotSeries costs{name, {}, regressor == nullptr}, expected{scene.title + ", " + name, {}};
+  for (const double tolerance : tolerances) {
+    const RunData& run = run_with(tolerance);
+    const RunDocument& d = run.document;
+    const Comparison c = compare(solved, run);
+    const double error = c.surface_mean / c.bbox_diagonal;
+    const double cost = d.opening_seconds / solved.document.opening_seconds;
+    study.table.rows.push_back({scene.title, by_hybrid(regressor, tolerance).title,
+                                fmt::format("{}", d.frames), fmt::format("{}", d.solved_frames),
+                                percent_text(*d.expected_error), percent_text(error), number_text(cost),
+                                number_text(d.opening_seconds)});
+    costs.points.push_back({cost, 100 * error});
+    expected.points.push_back({100 * *d.expected_error, 100 * error});
+    progress.advance();
+  }
+  study.plots.back().series.push_back(std::move(costs));
+  study.expected.series.push_back(std::move(expected));
 }
 
 Findings hybrid(Workshop& workshop) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  constexpr std::array kTolerances = {endless, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0};
   const Regressor* cube = workshop.forest(cube_database(workshop.scale()), {}).regressor.get();
-  const std::vector<double> tolerances = {
-      std::numeric_limits<double>::infinity(), 0.02, 0.01, 0.005, 0.002, 0.001, 0};
-  ReportTable table{"cost",
-                    "Error against cost: frames, of these solved; error of the surface that the run itself "
-                    "expects, and the true one (mean distance from that of boundary elements), over the "
-                    "body's diagonal; time of finding the opening over that of boundary elements",
-                    {"scene", "method", "frames", "solved", "expected", "true", "cost", "opening s"},
+  CostStudy study;
+  study.table = {"cost",
+                 "Error against cost: frames, of these solved; error of the surface that the run itself "
+                 "expects, and the true one (mean distance from that of boundary elements), over the "
+                 "body's diagonal; time of finding the opening over that of X = 0",
+                 {"scene", "method", "frames", "solved", "expected", "true", "cost", "opening s"},
+                 {}};
+  study.expected = {"Error of the surface that a hybrid run expects, against the true one",
+                    "expected mean distance / diagonal, %",
+                    "true mean distance / diagonal, %",
+                    true,
+                    true,
                     {}};
-  Findings f;
   const std::vector<ComparedScene> scenes = bodies_of_three_sizes(workshop);
-  Progress progress("runs", scenes.size() * 2 * tolerances.size());
+  Progress progress("runs", scenes.size() * 2 * kTolerances.size());
   for (const ComparedScene& scene : scenes) {
-    const RunData& bem = workshop.run(scene.text);
-    ReportPlot plot{
-        fmt::format("{}: error against cost, from prediction alone to boundary elements", scene.title),
-        "time of the opening / that of boundary elements",
-        "mean distance / diagonal, %",
-        false,
-        false,
-        {}};
-    for (const Regressor* regressor : {cube, static_cast<const Regressor*>(nullptr)}) {
-      const std::string name = regressor ? "RF(Cube)" : "kept";
-      PlotSeries series{name, {}, regressor == nullptr};
-      for (const double tolerance : tolerances) {
-        const MethodChoice method{.title = fmt::format("{}, X = {}", name, tolerance),
-                                  .method = "hybrid",
-                                  .regressor = regressor,
-                                  .tolerance = tolerance};
-        const RunData& run = workshop.run(scene.text, limited(workshop, scene.text, method));
-        const Comparison c = compare(bem, run);
-        table.rows.push_back(cost_row(scene.title, method, run, bem, c));
-        series.points.push_back({run.document.opening_seconds / bem.document.opening_seconds,
-                                 100 * c.surface_mean / c.bbox_diagonal});
-        progress.advance();
-      }
-      plot.series.push_back(std::move(series));
-    }
-    f.plots.push_back(std::move(plot));
+    study.plots.push_back({scene.title + ": error against cost, from prediction alone to boundary elements",
+                           "time of the opening / that of boundary elements",
+                           "mean distance / diagonal, %",
+                           false,
+                           false,
+                           {}});
+    for (const Regressor* regressor : {cube, static_cast<const Regressor*>(nullptr)})
+      add_costs(workshop, scene, regressor, kTolerances, study, progress);
   }
-  f.tables.push_back(std::move(table));
+  study.expected.series.push_back({"expected = true", {{0.1, 0.1}, {10, 10}}, true});
+  study.plots.push_back(std::move(study.expected));
+  Findings f;
+  f.tables.push_back(std::move(study.table));
+  f.plots = std::move(study.plots);
   f.remarks = {
       "X = inf is the prediction alone, X = 0 the solution; both have the bits of --method forest or "
       "kept, and bem. Times are those of one run each, on whatever else the machine did."};
