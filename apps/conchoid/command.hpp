@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -37,6 +38,9 @@ void add_cache_option(CLI::App& command, std::string& folder);
 /// The folder's cache, or null for an empty name. Throws InputError where it cannot be made.
 std::shared_ptr<const ByteCache> open_cache(const std::string& folder);
 
+/// Names of the modes of fracture, as in every output.
+inline constexpr std::array kModes = {"I", "II", "III"};
+
 /// Writes text and a line end to stdout. Throws ComputationError when that fails (closed pipe, full disk).
 void print(const std::string& text);
 
@@ -46,6 +50,7 @@ void add_compare(CLI::App& program, Invocation& invocation);
 void add_database(CLI::App& program, Invocation& invocation);
 void add_forest(CLI::App& program, Invocation& invocation);
 void add_forest_evaluate(CLI::App& group, Invocation& invocation);
+void add_forest_inspect(CLI::App& group, Invocation& invocation);
 void add_help(CLI::App& program, Invocation& invocation);
 void add_help_scene(CLI::App& program, Invocation& invocation);
 void add_materials(CLI::App& program, Invocation& invocation);

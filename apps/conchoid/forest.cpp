@@ -25,7 +25,6 @@ namespace conchoid {
 namespace {
 
 using nlohmann::ordered_json;
-constexpr std::array kModes = {"I", "II", "III"};
 
 struct ForestOptions {
   std::vector<std::string> samples;
@@ -93,44 +92,6 @@ void train(ForestOptions options, const CommonOptions& common) {
   ordered_json json = ordered_json::parse(json_text(*model));
   json["held_out"] = ordered_json::parse(json_text(held_out));
   print(json.dump());
-}
-
-/// Sizes of the trees and how often each feature decides, per mode. Throws InputError for what has no trees.
-ordered_json inspection(const std::string& file) {
-  const std::unique_ptr<Regressor> regressor = load_regressor(database_file(file));
-  const auto* forest = dynamic_cast<const RegressionForest*>(regressor.get());
-  if (!forest)
-    throw InputError(fmt::format("{}: holds a {}, which has no trees to inspect; use `conchoid forest info`",
-                                 file, regressor_kind(regressor->name()).title));
-  const std::vector<std::string> names = feature_names(forest->feature_set());
-  ordered_json modes;
-  for (int mode = 0; mode < 3; ++mode) {
-    std::vector<std::size_t> splits(names.size(), 0);
-    std::size_t leaves = 0;
-    for (const RegressionTree& tree : forest->ensemble(mode).trees())
-      for (std::size_t i = 0; i < tree.size(); ++i)
-        tree.left[i] < 0 ? ++leaves : ++splits[static_cast<std::size_t>(tree.feature[i])];
-    ordered_json& m = modes[kModes[static_cast<std::size_t>(mode)]];
-    m["trees"] = forest->ensemble(mode).tree_count();
-    m["depth"] = forest->ensemble(mode).depth();
-    m["nodes"] = forest->ensemble(mode).node_count();
-    m["leaves"] = leaves;
-    for (std::size_t f = 0; f < names.size(); ++f)
-      m["splits"][names[f]] = splits[f];
-  }
-  return ordered_json{{"modes", modes}};
-}
-
-std::string inspection_text(const ordered_json& inspection) {
-  std::string text;
-  for (const auto& [mode, m] : inspection["modes"].items()) {
-    text += fmt::format("{}mode {}: {} trees, depth {}, {} nodes, {} leaves; splits by feature:",
-                        text.empty() ? "" : "\n", mode, m["trees"].get<int>(), m["depth"].get<int>(),
-                        m["nodes"].get<std::size_t>(), m["leaves"].get<std::size_t>());
-    for (const auto& [feature, count] : m["splits"].items())
-      text += fmt::format("\n  {:<28} {}", feature, count.get<std::size_t>());
-  }
-  return text;
 }
 
 /// Numbers that kinds of regressors can be given; one that several kinds know stands once.
@@ -204,11 +165,7 @@ void add_forest(CLI::App& program, Invocation& invocation) {
         print(invocation.common.json ? json_text(*model) : regressor_text(*model));
       }));
   add_forest_evaluate(*group, invocation);
-  add_file(add_command(*group, invocation, "inspect", "Sizes of the trees and what they split on",
-                       [options, &invocation] {
-                         const ordered_json json = inspection(options->file);
-                         print(invocation.common.json ? json.dump() : inspection_text(json));
-                       }));
+  add_forest_inspect(*group, invocation);
 }
 
 }  // namespace conchoid

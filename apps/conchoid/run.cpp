@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <memory>
 
 #include "command.hpp"
@@ -23,11 +24,16 @@ struct RunCommand {
   std::vector<std::string> formats;  ///< empty: the scene's
   int frames = 0;                    ///< 0: the scene's
   bool resume = false;
+  double tolerance = kStandardTolerance;
+  bool has_tolerance = false;
 };
 
 std::string load_text(const RunDocument& d) {
   std::string text;
   if (!d.stop_details.empty()) text += "\n" + d.stop_details;
+  if (d.expected_error)
+    text += fmt::format("\n{} of {} frames solved, expected error of the surface {:.2f} % of the diagonal",
+                        d.solved_frames, d.frames, 100 * *d.expected_error);
   text += fmt::format("\ncrack area {:.6g} m²", d.crack_area);
   if (d.largest_K_over_Kc) text += fmt::format(", largest K {:.3g} K_c", *d.largest_K_over_Kc);
   if (d.stress_over_strength)
@@ -63,6 +69,8 @@ std::optional<RunDocument> finished_run(const RunCommand& command, const Scene& 
       fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","));
   for (const RunSetting& s : document.settings) {
     if (s.name == "run.frames" && s.value != RunSetting{s.name, frames}.value) return std::nullopt;
+    const double tolerance = options.tolerance.value_or(kStandardTolerance);
+    if (s.name == "run.tolerance" && s.value != tolerance_setting(tolerance).value) return std::nullopt;
     if (s.name == "output.formats" && s.value != RunSetting{s.name, formats}.value) return std::nullopt;
   }
   if (document.stop == StopReason::interrupted) return std::nullopt;
@@ -75,6 +83,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (command.frames > 0) options.frames = command.frames;
   if (!command.out.empty()) options.folder = command.out;
   if (!command.formats.empty()) options.formats = command.formats;
+  if (command.has_tolerance) options.tolerance = command.tolerance;
   options.resume = command.resume;
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   std::unique_ptr<Regressor> regressor;
@@ -83,7 +92,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
     database = std::string(kStandardDatabase);
   if (!database.empty()) regressor = load_regressor(database_file(database));
   options.regressor = regressor.get();
-  checked_method(options.method, options.regressor);
+  checked_method(options.method, options.regressor, options.tolerance);
   Scene scene = read_scene(command.scene);
   scene.run.solver = command.solver;
   scene.run.cache = open_cache(command.cache);
@@ -124,9 +133,16 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_option(
       "--database", options->database,
-      fmt::format("for --method {}: {}, which come with conchoid, or a file written by conchoid "
+      fmt::format("for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
                   "forest train; without it a forest is {}",
                   trained, fmt::join(shipped_names(), ", "), kStandardDatabase));
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "of --method hybrid: error that is to be expected of the crack surface at most, over the "
+                   "body's diagonal; 0: every frame is solved, inf: none after the first")
+      ->each([options](const std::string&) { options->has_tolerance = true; })
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::infinity()))
+      ->capture_default_str();
   add_cache_option(*command, options->cache);
   command->add_option("--frames", options->frames, "most frames, in place of the scene's")
       ->check(CLI::Range(1, 100000));

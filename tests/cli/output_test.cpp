@@ -220,6 +220,21 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
     }
     const json run = json_of(folder, {"run", "cube.toml", "--method", model, "--database", model});
     EXPECT_GT(run["frames"].get<int>(), 1);
+    const json pure = json_of(
+        folder, {"run", "cube.toml", "--method", "hybrid", "--tolerance", "inf", "--database", model});
+    EXPECT_EQ(pure["hash"], run["hash"]);
+    EXPECT_EQ(pure["solved_frames"], 1);
+    EXPECT_GT(pure["expected_error"].get<double>(), 0);
+    const json seen =
+        json_of(folder, {"forest", "inspect", model, "--samples", "cube.h5", "--training", "cube.h5"});
+    EXPECT_EQ(seen["modes"].is_null(), model == "ridge");
+    EXPECT_EQ(seen["coverage"]["in_range"], info["samples"]);
+    EXPECT_EQ(seen["coverage"]["neighbours"]["median"], 0.0);
+    EXPECT_EQ(seen["features"].size(), seen["coverage"]["features"].size());
+    EXPECT_EQ(seen["accuracy"][model]["r2"], accuracy["r2"]);
+    const json by_scene = json_of(folder, {"forest", "inspect", model, "--scene", "cube.toml"});
+    EXPECT_GT(by_scene["coverage"]["samples"].get<int>(), 0);
+    EXPECT_FALSE(by_scene["coverage"].contains("neighbours"));
   }
 }
 

@@ -57,9 +57,9 @@ TEST(Methods, EveryKindOfRegressorIsOne) {
   for (const RegressorKind& kind : regressor_kinds())
     EXPECT_EQ(opening_method(kind.name).regressor, kind.name);
   EXPECT_TRUE(opening_method("bem").regressor.empty());
-  for (const char* closed : {"steady", "kept", "stress"})
+  for (const char* closed : {"steady", "kept", "stress", "hybrid"})
     EXPECT_TRUE(opening_method(closed).regressor.empty());
-  EXPECT_EQ(opening_methods().size(), 4 + regressor_kinds().size());
+  EXPECT_EQ(opening_methods().size(), 5 + regressor_kinds().size());
   ASSERT_EQ(baseline_predictors().size(), 1u);
   EXPECT_EQ(baseline_predictors()[0]->name(), "steady");
   EXPECT_EQ(find_opening_method("magic"), nullptr);

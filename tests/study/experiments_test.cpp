@@ -42,7 +42,7 @@ TEST(Experiments, TheWholeChecklistIsThere) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"table-1", "table-2", "table-3", "figure-5", "figure-6", "figure-7",
                                           "figure-8", "figure-9", "figure-10", "figure-11", "figure-12",
-                                          "figure-13", "tree-study", "held-out"}));
+                                          "figure-13", "tree-study", "held-out", "calibration", "hybrid"}));
   EXPECT_EQ(experiments().front().name, "table-1");
   EXPECT_EQ(experiments()[11].name, "figure-13");
 }

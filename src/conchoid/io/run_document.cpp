@@ -1,5 +1,6 @@
 #include "conchoid/io/run_document.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,7 @@ Json to_json(const FrameRecord& f) {
   Json out;
   out["frame"] = f.frame;
   out["source"] = f.source;
+  if (f.expected_error) out["expected_error"] = *f.expected_error;
   out["crack_triangles"] = f.crack_triangles;
   out["front_nodes"] = f.front_nodes;
   out["crack_area"] = f.crack_area;
@@ -109,6 +111,7 @@ FrameRecord frame_from(const Json& json) {
   FrameRecord f;
   f.frame = json.at("frame").get<int>();
   f.source = json.at("source").get<std::string>();
+  f.expected_error = optional_from(json, "expected_error");
   f.crack_triangles = json.at("crack_triangles").get<std::size_t>();
   f.front_nodes = json.at("front_nodes").get<std::size_t>();
   f.crack_area = json.value("crack_area", 0.0);
@@ -124,6 +127,8 @@ RunDocument document_from(const Json& json, const std::filesystem::path& path) {
   RunDocument d;
   d.method = json.at("method").get<std::string>();
   d.frames = json.at("frames").get<int>();
+  d.solved_frames = json.value("solved_frames", 0);
+  d.expected_error = optional_from(json, "expected_error");
   d.resumed_after = json.value("resumed_after", 0);
   const std::string stop = json.at("stop").get<std::string>();
   const auto reason = stop_reason_from_name(stop);
@@ -167,6 +172,11 @@ RunDocument document_from(const Json& json, const std::filesystem::path& path) {
 
 }  // namespace
 
+RunSetting tolerance_setting(double tolerance) {
+  if (std::isfinite(tolerance)) return {"run.tolerance", tolerance};
+  return {"run.tolerance", std::string("inf")};
+}
+
 FragmentRecord fragment_record(const Fragment& fragment) {
   FragmentRecord record{fragment.volume,
                         fragment.mass,
@@ -189,6 +199,8 @@ std::string run_json(const RunDocument& d, RunJson extent) {
   }
   out["method"] = d.method;
   out["frames"] = d.frames;
+  out["solved_frames"] = d.solved_frames;
+  if (d.expected_error) out["expected_error"] = *d.expected_error;
   if (d.resumed_after > 0) out["resumed_after"] = d.resumed_after;
   out["stop"] = name(d.stop);
   out["stop_details"] = d.stop_details;

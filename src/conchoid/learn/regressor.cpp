@@ -11,11 +11,8 @@
 namespace conchoid {
 namespace {
 
-/// Whether a feature lies within the range of the training; a physically scaled copy differs by round-off and
-/// still does.
 bool within(double x, const FeatureRange& range) {
-  const double slack = 1e-9 * std::max(std::abs(range.minimum), std::abs(range.maximum));
-  return x >= range.minimum - slack && x <= range.maximum + slack;
+  return within_range(x, range.minimum, range.maximum);
 }
 
 void require_finite(const FeatureMatrix& matrix, std::string_view kind) {
@@ -27,6 +24,11 @@ void require_finite(const FeatureMatrix& matrix, std::string_view kind) {
 }
 
 }  // namespace
+
+bool within_range(double x, double minimum, double maximum) {
+  const double slack = 1e-9 * std::max(std::abs(minimum), std::abs(maximum));
+  return x >= minimum - slack && x <= maximum + slack;
+}
 
 Prediction Regressor::predict(std::span<const double> row) const {
   return predict(FeatureMatrix{record_.features, row.size(), {row.begin(), row.end()}}).front();

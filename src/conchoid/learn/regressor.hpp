@@ -36,6 +36,10 @@ struct FeatureRange {
   bool operator==(const FeatureRange&) const = default;
 };
 
+/// Whether a feature lies within a range of the training; a physically scaled copy differs by round-off and
+/// still does.
+bool within_range(double x, double minimum, double maximum);
+
 /// What every regressor keeps of its training.
 struct TrainingRecord {
   FeatureSet features = FeatureSet::paper_4;

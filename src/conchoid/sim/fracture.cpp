@@ -72,6 +72,10 @@ class Clock {
 
 }  // namespace
 
+bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m) {
+  return opening_from_intensity(K, crack_edge, m).norm() > kLargestOpening * crack_edge;
+}
+
 // On the heap and never moved: its parts refer to each other.
 struct Fracture::State {
   std::shared_ptr<const PreparedBody> body;
@@ -127,10 +131,11 @@ struct Fracture::State {
   double part_volume = 0;                              // of what has come off when it was not cut [m³]
   mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
+  OpeningSource& source() { return predictor ? *predictor : static_cast<OpeningSource&>(bem); }
   bool solves_next() const { return !predictor || predictor->solves(crack.sheet.frame); }
-  bool solved() const { return predictor ? predictor->solved() : carried == 0; }
+  bool solved() const { return carried == 0 && (!predictor || predictor->solved()); }
   // A prediction knows nothing of cracks that start later, unless it is solved now and then.
-  bool may_start_cracks() const { return solved() && (!predictor || settings.solve_every > 0); }
+  bool may_start_cracks() const { return solved() && (!predictor || predictor->solves_later_frames()); }
   TriMesh swept_surface() const;
   const std::vector<TriMesh>& visible_sheets() const;
   std::vector<TriMesh> unfold_visible_sheets() const;
@@ -241,16 +246,11 @@ void Fracture::State::start(StepReport& report) {
 
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
-  report.source = bem.name();
-  if (predictor) {
-    openings = predictor->open(crack);
-    if (!predictor->solved()) report.source = predictor->name();
-    return;
-  }
   try {
-    openings = bem.open(crack);
+    openings = source().open(crack);
     carried = 0;
-    if (const ContactReport& contact = bem.body().contact(); !contact.converged)
+    report.source = solved() ? bem.name() : source().name();
+    if (const ContactReport& contact = bem.body().contact(); solved() && !contact.converged)
       report.warnings.push_back(fmt::format("frame {}: {}", report.frame, contact_warning(contact)));
   } catch (const SingularSystem& error) {
     if (first(report.frame) || carried == kMostCarried) throw;
@@ -259,7 +259,9 @@ void Fracture::State::compute_openings(StepReport& report) {
                                             report.frame, error.what()));
     report.source = "carried";
     openings = carried_openings(crack, history, *growth.law);
+    source().take_carried(crack, openings);
   }
+  report.expected_error = source().expected_error();
 }
 
 // What every point is about to do.
@@ -271,7 +273,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontOpening& o = openings[i];
-    const bool ligament = opening_from_intensity(o.intensity, r, m).norm() > kLargestOpening * r;
+    const bool ligament = opens_beyond_elasticity(o.intensity, r, m);
     const Vec3& K = ligament ? o.intensity : resolved[i].intensity;  // what breaks anyway is not smoothed
     FrontDecision d;
     d.drive = growth.law->drive(K);
@@ -311,7 +313,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const std::vector<FrontStep> steps = decide(report);
   for (FractureObserver* observer : observers)
     observer->on_opening(self);
-  if (!predictor) history.remember(crack, openings);
+  history.remember(crack, openings);
   report.other_seconds = clock.lap();
   if (ligament_breaks(false)) {
     stop = StopReason::separated;
@@ -423,6 +425,9 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
 }
 bool Fracture::solved() const {
   return state_->solved();
+}
+bool Fracture::predicts() const {
+  return state_->predictor != nullptr;
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();

@@ -16,6 +16,9 @@ namespace conchoid {
 
 class Fracture;
 
+/// Whether K stands for an opening beyond kLargestOpening (learn/sample.hpp). @param crack_edge  r̄ [m]
+bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m);
+
 /// What a point of the front does in a frame; in the order of CrackState::points.
 struct FrontDecision {
   double drive = 0;      ///< K_eff [Pa√m]
@@ -26,15 +29,16 @@ struct FrontDecision {
 
 /// What one step did.
 struct StepReport {
-  int frame = 0;                    ///< 1 for the first; 0 if there was nothing to do
-  bool moving = false;              ///< another step may change something: `stop` is empty
-  std::optional<StopReason> stop;   ///< arrested, separated, intact or singular
-  std::string source;               ///< who gave the opening: "bem", "steady", …, "carried"
-  std::size_t front_points = 0;     ///< of the coarse fronts inside the body, before the advance
-  std::size_t crack_triangles = 0;  ///< boundary elements of the cracks, after the advance
-  std::size_t new_cracks = 0;       ///< that started in this step
-  StressPeak start;                 ///< where the first of these started, and the stress that made it
-  double largest_intensity = 0;     ///< K_eff [Pa√m]
+  int frame = 0;                         ///< 1 for the first; 0 if there was nothing to do
+  bool moving = false;                   ///< another step may change something: `stop` is empty
+  std::optional<StopReason> stop;        ///< arrested, separated, intact or singular
+  std::string source;                    ///< who gave the opening: "bem", "steady", …, "carried"
+  std::optional<double> expected_error;  ///< of the surface so far (OpeningSource::expected_error)
+  std::size_t front_points = 0;          ///< of the coarse fronts inside the body, before the advance
+  std::size_t crack_triangles = 0;       ///< boundary elements of the cracks, after the advance
+  std::size_t new_cracks = 0;            ///< that started in this step
+  StressPeak start;                      ///< where the first of these started, and the stress that made it
+  double largest_intensity = 0;          ///< K_eff [Pa√m]
   std::vector<std::string> warnings;
   double start_seconds = 0;  ///< of looking for the first crack in the body without one, in the first step
   double opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
@@ -109,6 +113,8 @@ class Fracture {
   const std::vector<FrontDecision>& decisions() const;
   /// Whether these come from a solution, and not from a prediction or from frames before.
   bool solved() const;
+  /// Whether a source other than the boundary elements gives the openings of some frames.
+  bool predicts() const;
   /// The body as it was last solved: displacement, traction, stress.
   const CrackedBody& solution() const;
   /// What fronts were like in the frames before.

@@ -13,6 +13,13 @@ std::unique_ptr<OpeningSource> predicted_by(const OpeningPredictor& predictor, c
   return std::make_unique<OpeningByPredictor>(c.prediction, predictor);
 }
 
+std::unique_ptr<OpeningSource> hybrid_source(const MethodContext& given) {
+  MethodContext c = given;
+  if (!c.prediction.tolerance) c.prediction.tolerance = kStandardTolerance;
+  if (c.regressor) return predicted_by(*c.regressor, c);
+  return std::make_unique<KeptOpening>(c.prediction);
+}
+
 OpeningMethod regressor_method(const RegressorKind& kind) {
   return {.name = std::string(kind.name),
           .title = fmt::format("predicted by a {}", kind.title),
@@ -50,6 +57,14 @@ std::vector<OpeningMethod> list_methods() {
        .regressor = "",
        .baseline = nullptr,
        .make = [](const MethodContext& c) { return std::make_unique<StressOpening>(c.prediction); }});
+  methods.push_back({.name = "hybrid",
+                     .title = "predicted, and solved where that may go astray",
+                     .help = "predicts by the database, or as kept does without one, and solves the frames "
+                             "whose prediction would bring more error than --tolerance",
+                     .regressor = "",
+                     .hybrid = true,
+                     .baseline = nullptr,
+                     .make = hybrid_source});
   for (const RegressorKind& kind : regressor_kinds())
     methods.push_back(regressor_method(kind));
   return methods;
@@ -91,11 +106,22 @@ std::vector<const OpeningPredictor*> baseline_predictors() {
   return predictors;
 }
 
-const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor) {
+const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor,
+                                    const std::optional<double>& tolerance) {
   const OpeningMethod& method = opening_method(name);
+  if (tolerance && !method.hybrid)
+    throw InputError(
+        fmt::format("a tolerance goes with --method hybrid, not with {}; leave out --tolerance", name));
+  if (tolerance && !(*tolerance >= 0))
+    throw InputError(fmt::format("--tolerance {}: must be 0 or above, inf among it", *tolerance));
+  if (method.hybrid) {
+    if (regressor) FrontHistory::require_recorded(regressor->feature_set());
+    return method;
+  }
   if (method.regressor.empty() && regressor)
     throw InputError(fmt::format(
-        "a trained regressor goes with --method {}, not with {}; choose one of these or leave out --database",
+        "a trained regressor goes with --method {} or hybrid, not with {}; choose one of these or leave out "
+        "--database",
         trained_names(), name));
   if (method.regressor.empty()) return method;
   if (!regressor)

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,13 +24,17 @@ struct OpeningMethod {
   std::string title;      ///< of a picture of such a run
   std::string help;       ///< half a sentence
   std::string regressor;  ///< kind of regressor (learn/regressor_kinds.hpp) that it needs; empty: none
+  bool hybrid = false;    ///< takes a tolerance, and a regressor of any kind or none
   /// Predicts without training: `forest evaluate` reports it beside a regressor. May be null.
   const OpeningPredictor* baseline = nullptr;
   /// Null where the boundary elements of the context solve every frame.
   std::function<std::unique_ptr<OpeningSource>(const MethodContext&)> make;
 };
 
-/// bem, steady, kept, stress, and one for every kind of regressor.
+/// × the body's diagonal: the error of the surface that hybrid runs keep to where nothing else is said.
+inline constexpr double kStandardTolerance = 0.005;
+
+/// bem, steady, kept, stress, hybrid, and one for every kind of regressor.
 const std::vector<OpeningMethod>& opening_methods();
 /// Throws InputError that lists the known names.
 const OpeningMethod& opening_method(std::string_view name);
@@ -39,7 +44,9 @@ const OpeningMethod* find_opening_method(std::string_view name);
 std::vector<const OpeningPredictor*> baseline_predictors();
 
 /// The method of that name, with what it needs. Throws InputError if the name is unknown, if a regressor is
-/// missing, of another kind or not needed.
-const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor);
+/// missing, of another kind or not needed, or if there is a tolerance that the method does not know or that is
+/// negative.
+const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor,
+                                    const std::optional<double>& tolerance = {});
 
 }  // namespace conchoid

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct FrontOpening {
   Vec3 opening = Vec3::Zero();         ///< Δu at the correlation node, world axes [m]
   Vec3 intensity = Vec3::Zero();       ///< K that moves the front [Pa√m]
   Vec3 node_intensity = Vec3::Zero();  ///< K from this opening alone (S3): what features are made of [Pa√m]
-  bool in_range = true;                ///< false: a predictor was asked beyond its training
-  bool known = true;                   ///< false: nothing tells K here, which is zero; the point stays
+  Vec3 spread = Vec3::Zero();  ///< standard deviation that a predictor gives K [Pa√m]; 0 where it states none
+  bool in_range = true;        ///< false: a predictor was asked beyond its training
+  bool known = true;           ///< false: nothing tells K here, which is zero; the point stays
 };
 
 /// The socket: where the crack opening comes from.
@@ -36,6 +38,13 @@ class OpeningSource {
   virtual bool solved() const = 0;
   /// Whether open() is going to, for a crack that has grown so many times (CrackSheet::frame).
   virtual bool solves(int frame) const = 0;
+  /// Whether frames after the first may be solved.
+  virtual bool solves_later_frames() const { return true; }
+  /// How far the crack surface so far is expected to lie from the solved one, over the body's diagonal; nothing
+  /// where nobody estimates it.
+  virtual std::optional<double> expected_error() const { return {}; }
+  /// The crack goes on by these openings, as open() could not solve.
+  virtual void take_carried(const CrackState&, const std::vector<FrontOpening>&) {}
 };
 
 /// Solves for the opening with boundary elements, incrementally; exact up to discretisation.

@@ -1,40 +1,98 @@
 #include "conchoid/sim/predicted_opening.hpp"
 
+#include <algorithm>
+
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/sim/front_gaps.hpp"
 
 namespace conchoid {
+namespace {
+
+double diagonal_of(const PreparedBody& body) {
+  if (!body.infinite()) return bounding_box(body.surface).diagonal();
+  double diagonal = 0;  // of the largest crack
+  for (const TriMesh& crack : body.cracks)
+    diagonal = std::max(diagonal, bounding_box(crack).diagonal());
+  return diagonal;
+}
+
+}  // namespace
+
 PredictedOpening::PredictedOpening(const PredictionContext& c)
     : bem_(c.bem),
       sif_(c.sif),
       material_(c.material.elastic()),
+      toughness_(c.material.toughness),
+      toughness_factor_(c.body.toughness),
       solve_every_(c.solve_every),
+      tolerance_(c.tolerance),
+      error_(material_, diagonal_of(c.body), c.body.crack_edge),
       history_(c.material, c.body.toughness, c.body.crack_edge) {}
 
-bool PredictedOpening::solve(const CrackState& crack, std::vector<FrontOpening>& out) {
-  const int frame = crack.sheet.frame;  // 0 for the first
-  if (!solves(frame)) return false;
+bool PredictedOpening::is_due(int frame) const {
+  return frame == 0 || (solve_every_ > 0 && frame % solve_every_ == 0) || tolerance_ == 0.0;
+}
+
+// Frames that cannot be solved are predicted; not where the solution is wanted as it is without predictions.
+std::optional<std::vector<FrontOpening>> PredictedOpening::solve(const CrackState& crack) {
   try {
-    out = bem_.open(crack);
-    return true;
+    return bem_.open(crack);
   } catch (const SingularSystem&) {
-    if (frame == 0) throw;
-    return false;
+    if (crack.sheet.frame == 0 || looks()) throw;
+    return {};
   }
 }
 
-std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
-  std::vector<FrontOpening> out;
-  look_at(crack);
-  solved_ = solve(crack, out);
-  if (!solved_) {
-    out = predict(crack);
-    fill_gaps(point_chains(crack), out);
+std::vector<FrontOpening> PredictedOpening::predicted(const CrackState& crack) const {
+  std::vector<FrontOpening> out = predict(crack);
+  fill_gaps(point_chains(crack), out);
+  return out;
+}
+
+bool PredictedOpening::any_moves(const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
+    if (effective_intensity(predicted[i].intensity, material_) >= toughness_ * toughness_factor_.at(x).value)
+      return true;
   }
+  return false;
+}
+
+bool PredictedOpening::is_good(const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
+  if (!looks()) return true;
+  return error_.of_next_front(crack, predicted) <= *tolerance_ && any_moves(crack, predicted);
+}
+
+std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
+  const bool due = is_due(crack.sheet.frame);
+  look_at(crack);
+  std::vector<FrontOpening> guess;
+  if (!due) guess = predicted(crack);
+  std::optional<std::vector<FrontOpening>> exact;
+  if (due || !is_good(crack, guess)) exact = solve(crack);
+  if (due && !exact) guess = predicted(crack);
+  solved_ = exact.has_value();
+  if (solved_)
+    error_.advance_solved(crack, *exact, guess);
+  else
+    error_.advance_predicted(crack, guess);
+  std::vector<FrontOpening> out = solved_ ? std::move(*exact) : std::move(guess);
   history_.remember(crack, out);
   remember(crack, out);
   return out;
+}
+
+std::optional<double> PredictedOpening::expected_error() const {
+  return tolerance_ ? std::optional(error_.of_surface()) : std::nullopt;
+}
+
+void PredictedOpening::take_carried(const CrackState& crack, const std::vector<FrontOpening>& openings) {
+  error_.advance_predicted(crack, openings);
+  history_.remember(crack, openings);
+  remember(crack, openings);
+  solved_ = false;
 }
 
 void PredictedOpening::set_intensity(const FrontPoint& point, const Vec3& K, FrontOpening& out) const {
@@ -55,6 +113,19 @@ void OpeningByPredictor::look_at(const CrackState& crack) {
 
 void OpeningByPredictor::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
   if (surroundings_) surroundings_->remember(crack, openings);
+}
+
+// Deviation of K in a point's frame from that of the opening in the frame that the point had before, whose
+// components are independent.
+Vec3 OpeningByPredictor::turned_spread(const FrontFrame& before, const FrontPoint& point,
+                                       const Vec3& spread) const {
+  Vec3 variance = Vec3::Zero();
+  for (int mode = 0; mode < 3; ++mode) {
+    const Vec3 K = stress_intensity(in_frame(point.frame, in_world(before, spread[mode] * Vec3::Unit(mode))),
+                                    point.distance, material(), sif().convention);
+    variance += K.cwiseAbs2();
+  }
+  return variance.cwiseSqrt();
 }
 
 std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) const {
@@ -86,6 +157,7 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
     o.opening = in_world(history().find(point.correlation)->frame, predictions[p].opening);
     o.intensity = o.node_intensity =
         stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
+    o.spread = turned_spread(history().find(point.correlation)->frame, point, predictions[p].spread);
   }
   return out;
 }

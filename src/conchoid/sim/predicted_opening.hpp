@@ -1,6 +1,10 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "conchoid/learn/opening_predictor.hpp"
+#include "conchoid/sim/expected_error.hpp"
 #include "conchoid/sim/front_surroundings.hpp"
 #include "conchoid/sim/opening_source.hpp"
 
@@ -13,15 +17,27 @@ struct PredictionContext {
   const PreparedBody& body;
   SifSettings sif;
   int solve_every = 0;  ///< N: frames 1, 1 + N, 1 + 2N … are solved; 0: frame 1 alone
+  /// Largest error to be expected of the surface, over the body's diagonal; a frame whose prediction would bring
+  /// more is solved. 0: every frame; none: nobody asks.
+  std::optional<double> tolerance = {};
 };
 
 /// Frame 1 by boundary elements, and every Nth after it where that is asked for; the others are predicted. A
 /// later frame that cannot be solved (SingularSystem) is predicted, too.
+///
+/// With a tolerance X (methods "hybrid") a prediction is looked at first: the frame is solved if the front
+/// that the prediction leads to would be expected farther than X from the solved one (ExpectedError), if no
+/// point of the front would move, or if X = 0. So the expected error of the surface keeps within X. X = 0 is
+/// the solution bit for bit, frames that cannot be solved among it: they are carried, not predicted. X = ∞ is the
+/// prediction.
 class PredictedOpening : public OpeningSource {
  public:
   std::vector<FrontOpening> open(const CrackState& crack) final;
   bool solved() const final { return solved_; }
-  bool solves(int frame) const final { return frame == 0 || (solve_every_ > 0 && frame % solve_every_ == 0); }
+  bool solves(int frame) const final { return looks() || is_due(frame); }
+  bool solves_later_frames() const final { return solve_every_ > 0 || looks(); }
+  std::optional<double> expected_error() const final;
+  void take_carried(const CrackState& crack, const std::vector<FrontOpening>& openings) final;
 
  protected:
   explicit PredictedOpening(const PredictionContext& context);
@@ -38,12 +54,22 @@ class PredictedOpening : public OpeningSource {
   const ElasticConstants& material() const { return material_; }
 
  private:
-  bool solve(const CrackState& crack, std::vector<FrontOpening>& out);
+  bool is_due(int frame) const;
+  // Whether predictions may be rejected.
+  bool looks() const { return tolerance_ && *tolerance_ < std::numeric_limits<double>::infinity(); }
+  bool is_good(const CrackState& crack, const std::vector<FrontOpening>& predicted) const;
+  bool any_moves(const CrackState& crack, const std::vector<FrontOpening>& predicted) const;
+  std::vector<FrontOpening> predicted(const CrackState& crack) const;
+  std::optional<std::vector<FrontOpening>> solve(const CrackState& crack);
 
   BemOpening& bem_;
   SifSettings sif_;
   ElasticConstants material_;
+  double toughness_;  // of the material
+  const MaterialField& toughness_factor_;
   int solve_every_;
+  std::optional<double> tolerance_;
+  ExpectedError error_;
   bool solved_ = false;
   FrontHistory history_;
 };
@@ -60,6 +86,7 @@ class OpeningByPredictor : public PredictedOpening {
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
   void look_at(const CrackState& crack) override;
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings) override;
+  Vec3 turned_spread(const FrontFrame& before, const FrontPoint& point, const Vec3& spread) const;
 
   const OpeningPredictor& predictor_;
   BemOpening& bem_;

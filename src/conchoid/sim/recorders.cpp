@@ -58,7 +58,7 @@ FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
 }
 
 void SampleRecorder::on_opening(const Fracture& fracture) {
-  if (!fracture.solved()) return;
+  if (!fracture.solved() || fracture.predicts()) return;
   const CrackState& crack = fracture.crack();
   FrontSurroundings* around = surroundings(fracture);
   if (around) around->measure(crack, fracture.load(), 0);

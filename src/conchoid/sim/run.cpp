@@ -60,6 +60,8 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
       {"run.solve_every", static_cast<std::int64_t>(scene.run.solve_every)},
       {"run.solver", scene.run.solver},
       {"output.formats", fmt::format("{}", fmt::join(options.formats.value_or(scene.output.formats), ","))}};
+  if (opening_method(options.method).hybrid)
+    doc.settings.push_back(tolerance_setting(options.tolerance.value_or(kStandardTolerance)));
   doc.versions = {{"conchoid", std::string(CONCHOID_VERSION)}, {"compiler", std::string("g++ " __VERSION__)}};
   doc.initial_triangles = body.surface.triangle_count();
   for (const TriMesh& crack : body.cracks)
@@ -120,6 +122,9 @@ class ReportWriter : public FractureObserver {
     FrameRecord record;
     record.frame = step.frame;
     record.source = step.source;
+    record.expected_error = step.expected_error;
+    if (step.source == "bem") ++doc_.solved_frames;
+    doc_.expected_error = step.expected_error;
     record.crack_triangles = step.crack_triangles;
     record.front_nodes = step.front_points;
     record.crack_area = surface_area(fracture.crack().trimmed);
@@ -159,7 +164,8 @@ BreakupSettings breakup_settings(const Scene& scene, const RunOptions& options, 
   settings.source = [&scene, &options, &method](const PreparedBody& body) -> MakeOpeningSource {
     return [&](BemOpening& bem) {
       return method.make(
-          {{bem, body.material, body, sif_settings(scene.run), scene.run.solve_every}, options.regressor});
+          {{bem, body.material, body, sif_settings(scene.run), scene.run.solve_every, options.tolerance},
+           options.regressor});
     };
   };
   return settings;
@@ -172,7 +178,7 @@ RunResult run_scene(const Scene& scene, const RunOptions& options) {
 }
 
 RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options) {
-  const OpeningMethod& method = checked_method(options.method, options.regressor);
+  const OpeningMethod& method = checked_method(options.method, options.regressor, options.tolerance);
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
   const auto start = std::chrono::steady_clock::now();

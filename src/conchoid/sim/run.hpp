@@ -18,6 +18,7 @@ class Regressor;
 struct RunOptions {
   std::string method = "bem";                       ///< where the opening comes from: sim/methods.hpp
   const Regressor* regressor = nullptr;             ///< for the methods that need one
+  std::optional<double> tolerance;                  ///< of hybrid runs (PredictionContext); none: standard
   std::optional<int> frames;                        ///< in place of the scene's
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's
@@ -40,7 +41,7 @@ struct RunResult {
 /// Runs a scene: solve or predict the opening, SIFs, advance, until nothing moves in the body and its pieces or
 /// the frame limit is reached; what comes apart is cut. document.stop says which (io/outcome.hpp). Same
 /// scene, same bits: for every number of threads, with a folder or without, stopped and resumed or not.
-/// Throws InputError for an unknown method or a regressor that does not go with it, and when what is to be
+/// Throws InputError for an unknown method, or a regressor or tolerance that does not go with it, and when what is to be
 /// resumed belongs to another scene, method, regressor or version. For more than one load, or one step at a
 /// time: Fracture (fracture.hpp) and Breakup (breakup.hpp), which this is a thin driver of.
 RunResult run_scene(const Scene& scene, const RunOptions& options);

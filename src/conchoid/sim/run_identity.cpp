@@ -106,6 +106,7 @@ std::string run_identity(const Scene& scene, const PreparedBody& body, const Loa
   hash.add(scene.text);
   hash.add(options.method);
   if (options.regressor) hash.add(options.regressor->content_hash());
+  if (options.tolerance) hash.add(std::array{*options.tolerance});
   add_mesh(hash, body.surface);
   add_mesh(hash, body.detailed);
   for (const TriMesh& crack : body.cracks)

@@ -11,7 +11,7 @@ namespace {
 
 std::vector<Experiment> all_experiments() {
   std::vector<Experiment> all = database_experiments();
-  for (auto* more : {&scene_experiments, &held_out_experiments})
+  for (auto* more : {&scene_experiments, &held_out_experiments, &uncertainty_experiments})
     for (Experiment& e : (*more)())
       all.push_back(std::move(e));
   // Tables before figures before studies, each by its number.

@@ -21,10 +21,12 @@ struct Experiment {
   std::function<Findings(Workshop&)> make;
 };
 
-/// Those about databases and training, those about scenes, and those about loads that no database has seen.
+/// Those about databases and training, about scenes, about loads that no database has seen, and about errors that
+/// a run knows of.
 std::vector<Experiment> database_experiments();
 std::vector<Experiment> scene_experiments();
 std::vector<Experiment> held_out_experiments();
+std::vector<Experiment> uncertainty_experiments();
 
 /// All, in the order of the publication.
 const std::vector<Experiment>& experiments();

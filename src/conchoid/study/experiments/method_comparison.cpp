@@ -59,7 +59,7 @@ double setting(const RunDocument& document, const std::string& name) {
 // In a row, from the front, the right and above.
 std::filesystem::path write_panels(const Workshop& workshop, const std::string& name,
                                    const std::vector<PicturePanel>& panels, const Vec3& up) {
-  constexpr int side = 330;  // pixels
+  const int side = workshop.full() ? 330 : 210;  // pixels
   PictureSettings settings;
   settings.up = up;
   if (up.y() != 0) settings.from = {0.62, 0.52, 1.0};

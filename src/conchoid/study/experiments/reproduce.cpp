@@ -12,6 +12,7 @@
 #include "conchoid/core/progress.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/study/experiments/html_report.hpp"
+#include "conchoid/study/experiments/svg_plot.hpp"
 
 namespace conchoid {
 namespace {
@@ -45,9 +46,13 @@ fs::path checked_scan(const fs::path& file) {
   return fs::absolute(file);
 }
 
-void write_tables(const Reproduction& made, const fs::path& folder) {
+void write_findings(const Reproduction& made, const fs::path& folder) {
+  const std::string& name = made.experiment->name;
   for (const ReportTable& table : made.findings.tables)
-    write_bytes(folder / fmt::format("{}-{}.csv", made.experiment->name, table.name), csv_text(table));
+    write_bytes(folder / "tables" / fmt::format("{}-{}.csv", name, table.name), csv_text(table));
+  for (std::size_t i = 0; i < made.findings.plots.size(); ++i)
+    write_bytes(folder / "figures" / fmt::format("{}-plot-{}.svg", name, i + 1),
+                plot_svg(made.findings.plots[i]));
 }
 
 nlohmann::ordered_json tables_json(const std::vector<ReportTable>& tables) {
@@ -75,7 +80,7 @@ StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& wo
       warning(fmt::format("{}: {}", e->name, made.failure));
     }
     made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    write_tables(made, workshop.folder() / "tables");
+    write_findings(made, workshop.folder());
     report.made.push_back(std::move(made));
     report.specifications = {workshop.specifications().begin(), workshop.specifications().end()};
     write_bytes(report.file, html_report(report));

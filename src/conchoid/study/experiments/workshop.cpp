@@ -52,8 +52,10 @@ bool finished(const fs::path& run_folder) {
 }
 
 std::string made_from(const std::string& text, const MethodChoice& method) {
-  return fmt::format("{}\n{}\n{}\n{}", scene_text(text, method), method.method,
-                     method.regressor ? method.regressor->content_hash() : 0, method.frames);
+  const std::string made =
+      fmt::format("{}\n{}\n{}\n{}", scene_text(text, method), method.method,
+                  method.regressor ? method.regressor->content_hash() : 0, method.frames);
+  return method.tolerance ? fmt::format("{}\n{}", made, *method.tolerance) : made;
 }
 
 }  // namespace
@@ -131,6 +133,7 @@ const RunData& Workshop::run(const std::string& text, const MethodChoice& method
     RunOptions options;
     options.method = method.method;
     options.regressor = method.regressor;
+    options.tolerance = method.tolerance;
     if (method.frames > 0) options.frames = method.frames;
     options.folder = folder;
     options.resume = true;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -38,7 +39,8 @@ struct MethodChoice {
   std::string method = "bem";  ///< sim/methods.hpp
   int solve_every = 0;         ///< run.solve_every
   const Regressor* regressor = nullptr;
-  int frames = 0;  ///< most frames; 0: the scene's
+  int frames = 0;                        ///< most frames; 0: the scene's
+  std::optional<double> tolerance = {};  ///< of hybrid runs
 };
 
 /// Makes databases, forests and runs for experiments, each only once: everything is kept in a folder under a

@@ -1,0 +1,119 @@
+#include "conchoid/sim/expected_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "conchoid/crack/law/criterion.hpp"
+
+// What a predicted crack is expected to be off by.
+namespace conchoid {
+namespace {
+
+const ElasticConstants kMaterial{3.1e9, 0.327};
+constexpr double kDiagonal = 2, kEdge = 0.1;
+
+// A front of three points in frame n, each grown from the one in the frame before.
+CrackState front(int n) {
+  CrackState crack;
+  for (int i = 0; i < 3; ++i) {
+    const NodeId before = n > 0 ? NodeId(10 * (n - 1) + i) : NodeId{};
+    const FrontFrame frame{Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY()};
+    crack.points.push_back({NodeId(10 * n + i), before, frame, kEdge, 0});
+  }
+  return crack;
+}
+
+// K of that kink angle, or nearly.
+Vec3 turning(double angle) {
+  return {1e6, -0.5e6 * angle, 0};
+}
+
+std::vector<FrontOpening> openings(const Vec3& K, const Vec3& spread = Vec3::Zero()) {
+  FrontOpening o;
+  o.intensity = K;
+  o.spread = spread;
+  return {3, o};
+}
+
+double stated(const Vec3& K, const Vec3& spread = Vec3::Zero()) {
+  return stated_angle_error(openings(K, spread)[0], kEdge, kMaterial);
+}
+
+TEST(StatedAngleError, IsTheSpreadOfTheAngleOrTheAngleItself) {
+  const Vec3 K = turning(0.2);
+  EXPECT_DOUBLE_EQ(stated(K), std::abs(kink_angle(K, kMaterial)));
+  const double slope =
+      (kink_angle(K + Vec3(0, 1, 0), kMaterial) - kink_angle(K - Vec3(0, 1, 0), kMaterial)) / 2;
+  EXPECT_NEAR(stated(K, {0, 3e4, 0}), 3e4 * std::abs(slope), 1e-3);
+  EXPECT_GT(stated(K, {3e4, 3e4, 3e4}), stated(K, {0, 3e4, 0}));
+  // A physically scaled copy states the same.
+  EXPECT_NEAR(stated(7 * K, {0, 7 * 3e4, 0}), stated(K, {0, 3e4, 0}), 1e-12);
+}
+
+TEST(StatedAngleError, IsNeverNothing) {
+  EXPECT_EQ(stated({1e6, 0, 0}), kLeastAngleError);
+  FrontOpening outside = openings({1e6, 0, 0})[0];
+  outside.in_range = false;
+  EXPECT_EQ(stated_angle_error(outside, kEdge, kMaterial), kOutsideAngleError);
+  // Through a ligament the front goes straight on, whatever K says.
+  EXPECT_EQ(stated(1e6 * turning(0.5)), kLeastAngleError);
+}
+
+TEST(ExpectedError, GrowsWithTheSquareOfTheFramesPredicted) {
+  ExpectedError error(kMaterial, kDiagonal, kEdge);
+  const auto predicted = openings(turning(0.01));
+  const double s = ExpectedError::kFirstScale * stated(turning(0.01));
+  double distance = 0, sum = 0;
+  for (int n = 0; n < 4; ++n) {
+    const double before = distance;
+    distance += kEdge * std::sin((n + 1) * s);
+    EXPECT_NEAR(error.of_next_front(front(n), predicted), distance / kDiagonal, 1e-15);
+    error.advance_predicted(front(n), predicted);
+    sum += 0.5 * (before + distance) / kDiagonal;
+    EXPECT_NEAR(error.of_surface(), sum / (n + 1), 1e-15);
+  }
+}
+
+TEST(ExpectedError, APointThatStaysAddsNothingByStaying) {
+  ExpectedError error(kMaterial, kDiagonal, kEdge);
+  const auto predicted = openings(turning(0.01));
+  error.advance_predicted(front(0), predicted);
+  const double once = error.of_next_front(front(0), predicted);
+  error.advance_predicted(front(0), predicted);
+  EXPECT_EQ(error.of_next_front(front(0), predicted), once);
+}
+
+TEST(ExpectedError, ASolvedFrameTurnsTheCrackBackFromWhereItIs) {
+  ExpectedError error(kMaterial, kDiagonal, kEdge);
+  const auto predicted = openings(turning(0.02));
+  const double step = error.of_next_front(front(0), predicted);
+  error.advance_predicted(front(0), predicted);
+  error.advance_solved(front(1), predicted, {});
+  const double surface = error.of_surface();
+  EXPECT_NEAR(surface, (0.5 * step + step) / 2, 1e-15);
+  // The next stretch begins anew, and adds in quadrature.
+  EXPECT_NEAR(error.of_next_front(front(2), predicted), std::sqrt(2.0) * step, 1e-15);
+}
+
+TEST(ExpectedError, TakesItsScaleFromFramesThatWereSolvedToo) {
+  const Vec3 K = turning(0.02), spread(0, 1e4, 0);
+  const double s = stated(K, spread);
+  for (const double true_error : {0.5 * s, 3 * s}) {
+    ExpectedError error(kMaterial, kDiagonal, kEdge);
+    Vec3 solved = K;  // whose angle is off by that much: by bisection
+    double low = 0, high = 1e6;
+    for (int i = 0; i < 60; ++i) {
+      solved[1] = K[1] - 0.5 * (low + high);
+      (kink_angle(solved, kMaterial) - kink_angle(K, kMaterial) < true_error ? low : high) = K[1] - solved[1];
+    }
+    error.advance_solved(front(0), openings(solved), openings(K, spread));
+    EXPECT_NEAR(error.scale(), true_error / s, 1e-6);
+    error.advance_solved(front(1), openings(K), openings(K, spread));  // as predicted
+    EXPECT_NEAR(error.scale(), true_error / s / std::numbers::sqrt2, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace conchoid
