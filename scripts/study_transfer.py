@@ -10,6 +10,7 @@ without the class (and without its like: box and cube, rod and bar), and for cub
 import argparse
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 
@@ -105,7 +106,11 @@ def main():
     column = lambda s: f"{100 * s['surface_median']:.2f}, {100 * s['surface_largest']:.1f}, {s['frames_ratio']:.2f}, {s['lost']}"
     print("| class | runs | steady | kept | stress | class in training | class left out | own database |")
     print("|---|---|---|---|---|---|---|---|")
+    pooled = {}
     for name in names:
+        for r in evaluate(a.program, a.work, name, a.runs, a.armadillo)["runs"]:
+            method = "without" if r["method"].startswith("without") or (name == "armadillo" and r["method"] == "all") else r["method"]
+            pooled.setdefault(method, {})[name, r["run"]] = r["surface_mean"]
         scores = {s["method"]: s for s in evaluate(a.program, a.work, name, a.runs, a.armadillo)["scores"] if s["class"]}
         if not scores:
             print(f"| {name} | 0 |", flush=True)
@@ -115,6 +120,12 @@ def main():
         cells = [column(scores[m]) for m in ("steady", "kept", "stress")]
         cells += ["", column(scores["all"])] if name == "armadillo" else [column(scores["all"]), column(without)]
         print(f"| {name} | {scores['steady']['runs']} | " + " | ".join(cells) + f" | {column(own) if own else ''} |", flush=True)
+    print("\n| all runs together | median | 90 % | largest | class left out is better in |\n|---|---|---|---|---|")
+    for method, runs in pooled.items():
+        values, both = sorted(runs.values()), [k for k in runs if k in pooled["without"]]
+        better = sum(pooled["without"][k] < runs[k] for k in both)
+        print(f"| {method} | {100 * statistics.median(values):.2f} | {100 * values[int(0.9 * (len(values) - 1))]:.1f} | {100 * values[-1]:.1f} | "
+              f"{better} of {len(both)} |")
 
 
 if __name__ == "__main__":

@@ -39,13 +39,14 @@ Database read_files(const DatabaseOptions& options) {
 std::string info_text(const DatabaseInfo& info) {
   std::string text = fmt::format(
       "models      {}\nruns        {} of {}{}\nexcluded    {}\nsamples     {}, of which {} to be learned "
-      "from\n"
+      "from, {} by versatile alone\n"
       "resolution  {:g} m\nmaterial    E {:g} Pa, ν {:g}, K_c {:g} Pa√m\nframes      {:.1f} per run\nstops   "
       "   ",
       fmt::join(info.header.models, ", "), info.runs, info.header.planned_here(),
       info.complete ? "" : " (incomplete: go on with database generate --resume)", info.excluded_runs,
-      info.samples, info.training_samples, info.header.resolution, info.header.material.youngs_modulus,
-      info.header.material.poisson_ratio, info.header.material.toughness, info.mean_frames);
+      info.samples, info.training_samples, info.end_game_samples, info.header.resolution,
+      info.header.material.youngs_modulus, info.header.material.poisson_ratio, info.header.material.toughness,
+      info.mean_frames);
   for (const auto& [stop, count] : info.stops)
     text += fmt::format(" {} {}", count, stop);
   for (const auto& [reason, count] : info.exclusions)

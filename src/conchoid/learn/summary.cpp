@@ -56,6 +56,7 @@ DatabaseInfo database_info(const Database& database) {
     info.mean_frames += run.frames / static_cast<double>(info.runs);
     info.wall_seconds += run.wall_seconds;
   }
+  info.end_game_samples = info.training_samples - database.training_samples().size();
   return info;
 }
 
@@ -101,6 +102,7 @@ std::string json_text(const DatabaseInfo& info) {
                {"resolution", info.header.resolution},
                {"excluded_runs", info.excluded_runs},
                {"training_samples", info.training_samples},
+               {"end_game_samples", info.end_game_samples},
                {"stops", info.stops},
                {"exclusions", info.exclusions},
                {"mean_frames", info.mean_frames},

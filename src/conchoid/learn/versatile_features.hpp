@@ -21,7 +21,7 @@ namespace conchoid {
 //
 // Label: ln(S′/S), and w_II′ and w_III′ within ± 0.5, where nearly all are that are more than error. Nothing learned is
 // zero: the front goes straight on, opened by the K that it had. (Learning what "K as it was in the front's own frame"
-// misses was tried: on every class of bodies left out of training that is worse, as K_II does not last.)
+// misses is no better, and worse on most classes of bodies left out of training: K_II does not last.)
 //
 // Signs: reversing the crack normal, and mirroring the body across the plane of e1 and e2, each negate some of the features
 // and of the labels (and only that); a regressor is trained on all four images and asked for all four, so that its answer
