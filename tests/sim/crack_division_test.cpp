@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/sim/predicted_opening.hpp"
+#include "conchoid/sim/prepared_body.hpp"
+#include "scenes.hpp"
+
+// The surface is divided near cracks before it is cut; what that adds to the boundary elements stays when a crack grows.
+namespace conchoid {
+namespace {
+
+constexpr double kEdge = 0.1;  // r̄
+const ElasticConstants kGlassy{3.1e9, 0.327};
+
+TriMesh cube() {
+  return built_in_model("cube").mesh;
+}
+
+// From the side of the cube, askew; grown by so many strips.
+CrackState edge_crack(int strips, NearCracks near = NearCracks::divided) {
+  TriMesh disc = disc_crack({0.483, 0.021, 0.034}, {0.1, 0.2, 1}, 0.2, {.edge = kEdge});
+  for (int i = 0; i < strips; ++i)
+    disc = extend_sheet_beyond(disc, boundary_edges(disc), kEdge);
+  CrackState crack;
+  append_part(crack.sheet, disc);
+  update_crack(crack, cube(), kEdge, near);
+  return crack;
+}
+
+std::shared_ptr<const BodyOperator> held_cube() {
+  const TriMesh mesh = cube();
+  std::vector<BoundaryKind> kinds(mesh.triangle_count(), BoundaryKind::traction);
+  for (std::size_t t = 0; t < kinds.size(); ++t)
+    if (unit_normal(mesh, TriId(t)).z() < -0.9) kinds[t] = BoundaryKind::displacement;
+  return std::make_shared<const BodyOperator>(mesh, kinds, kGlassy);
+}
+
+LoadCase pulled() {
+  const TriMesh mesh = cube();
+  LoadCase load{std::vector<Vec3>(mesh.triangle_count(), Vec3::Zero()),
+                IdVector<NodeId, Vec3>(mesh.node_count(), Vec3::Zero()),
+                {}};
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (unit_normal(mesh, TriId(t)).z() > 0.9) load.traction[t] = {1e5, 0, 1e6};
+  return load;
+}
+
+}  // namespace
+
+TEST(CrackDivision, OpensCracksAsTheHatsOfTheCutSurfaceDo) {
+  const auto body = held_cube();
+  const CrackState crack = edge_crack(0);
+  ASSERT_FALSE(crack.division.halves.empty());
+  CrackedBody by_halves(body, pulled()), by_pieces(body, pulled());
+  by_halves.set_crack(crack.cut, crack.division);
+  by_pieces.set_crack(crack.cut);
+  by_halves.solve();
+  by_pieces.solve();
+  ASSERT_EQ(by_halves.statistics().functions, by_pieces.statistics().functions);
+  double largest = 0, difference = 0;
+  for (std::size_t i = 0; i < by_pieces.opening().size(); ++i) {
+    largest = std::max(largest, by_pieces.opening()[NodeId(i)].norm());
+    difference =
+        std::max(difference, (by_pieces.opening()[NodeId(i)] - by_halves.opening()[NodeId(i)]).norm());
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_LT(difference, 1e-7 * largest);
+  EXPECT_NEAR(by_halves.energy(), by_pieces.energy(), 1e-7 * by_pieces.energy());
+  const std::vector<Mat3> a = by_halves.surface_stress(), b = by_pieces.surface_stress();
+  for (std::size_t t = 0; t < a.size(); ++t)
+    EXPECT_LT((a[t] - b[t]).norm(), 1e-6 * 1e6);
+}
+
+TEST(CrackDivision, WhatGrowthDividesFurtherChangesNoFunctionOfBefore) {
+  const auto body = held_cube();
+  const CrackState before = edge_crack(0), after = edge_crack(2);
+  const auto middles = [&](const CrackState& crack) {
+    std::set<NodeId> nodes;
+    for (const HalfTriangle& half : crack.division.halves)
+      nodes.insert(half.corners[2]);
+    std::set<std::vector<double>> keys;
+    for (const EnrichmentFunction& f :
+         make_enriched_space(crack.cut, body->surface(), body->kinds(), crack.division).functions)
+      if (f.kind == EnrichmentKind::hat && nodes.contains(f.node)) keys.insert(f.key);
+    return keys;
+  };
+  const auto few = middles(before), many = middles(after);
+  ASSERT_GT(few.size(), 20u);
+  ASSERT_GT(many.size(), few.size());
+  for (const std::vector<double>& key : few)
+    EXPECT_TRUE(many.contains(key));
+}
+
+TEST(CrackDivision, ASheetThatWasDisplacedStaysDisplaced) {
+  const TriMesh mesh = cube();
+  TriMesh disc = disc_crack({0.5, 0, 0}, Vec3::UnitZ(), 0.2, {.edge = kEdge});
+  for (Vec3& x : disc.positions)  // through nodes of the cube and along its edges
+    x.z() = 0.1;
+  CrackState crack;
+  append_part(crack.sheet, disc);
+  update_crack(crack, mesh, kEdge);
+  const double displaced = crack.displacement;
+  for (int i = 0; i < 2; ++i) {
+    update_crack(crack, mesh, kEdge);
+    EXPECT_EQ(crack.displacement, displaced);
+  }
+  CrackState moved;  // where it lies well as it is, as after growth
+  append_part(moved.sheet, disc_crack({0.483, 0.021, 0.034}, {0.1, 0.2, 1}, 0.2, {.edge = kEdge}));
+  moved.displacement = 0.01;
+  update_crack(moved, mesh, kEdge);
+  EXPECT_EQ(moved.displacement, 0.01);
+}
+
+TEST(CrackDivision, NothingIsDividedForWhatIsNotSolved) {
+  const CrackState crack = edge_crack(0, NearCracks::as_it_is);
+  EXPECT_TRUE(crack.division.halves.empty());
+  EXPECT_LT(crack.cut.surface.size(), edge_crack(0).cut.surface.size());
+  const Scene scene = test::scene_from_text(
+      "[body]\nmodel = 'cube'\n" + test::material_text() + test::resolution_text(kEdge, 0.02) +
+      test::boundary_text("z+", "traction", {0, 0, 9e7}) +
+      test::boundary_text("z-", "traction", {0, 0, -9e7}) + "[run]\ninertia_relief = true\n");
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  const SifSettings sif = sif_settings(scene.run);
+  for (const int every : {0, 2}) {
+    BemOpening bem(body->elastic, load_of(scene, *body), sif);
+    const KeptOpening kept({bem, body->material, *body, sif, every});
+    EXPECT_TRUE(kept.solves(0));
+    EXPECT_FALSE(kept.solves(1));
+    EXPECT_EQ(kept.solves(2), every == 2);
+  }
+}
+
+}  // namespace conchoid
