@@ -11,6 +11,7 @@
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/inspection.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
+#include "conchoid/learn/shipped.hpp"
 #include "conchoid/sim/front_history.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/run.hpp"
@@ -120,7 +121,6 @@ ordered_json inspection(const InspectOptions& options) {
                     "use `conchoid forest info`",
                     options.file, regressor_kind(regressor->name()).title));
   }
-  if (!options.scene.empty()) FrontHistory::require_recorded(regressor->feature_set());
   const SampleSet samples = inspected_samples(options);
   out["features"] = influences_json(*regressor, samples);
   out["coverage"] = coverage_json(*regressor, samples);

@@ -53,7 +53,7 @@ RunDocument document_of(const std::vector<Fragment>& fragments) {
                 {"run.method", std::string("bem")}};
   d.versions = {{"conchoid", std::string("0.1.0")}};
   d.warnings = {"a warning"};
-  d.timings = {{1, "bem", 24, 18, 1.5e6, 0.1, 0.2, 0.3}};
+  d.timings = {{1, "bem", {}, 24, 18, 0, 1.5e6, 0.1, 0.2, 0.3}};
   for (const Fragment& f : fragments)
     d.fragments.push_back(fragment_record(f));
   d.contacts = {{0, 1, 1.0}};

@@ -114,10 +114,7 @@ const OpeningMethod& checked_method(std::string_view name, const Regressor* regr
         fmt::format("a tolerance goes with --method hybrid, not with {}; leave out --tolerance", name));
   if (tolerance && !(*tolerance >= 0))
     throw InputError(fmt::format("--tolerance {}: must be 0 or above, inf among it", *tolerance));
-  if (method.hybrid) {
-    if (regressor) FrontHistory::require_recorded(regressor->feature_set());
-    return method;
-  }
+  if (method.hybrid) return method;
   if (method.regressor.empty() && regressor)
     throw InputError(fmt::format(
         "a trained regressor goes with --method {} or hybrid, not with {}; choose one of these or leave out "
