@@ -97,8 +97,15 @@ ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples)
 }
 
 /// Samples by which to inspect: of a database, or of a scene solved by boundary elements.
-SampleSet inspected_samples(const InspectOptions& options) {
-  if (!options.samples.empty()) return read_database(options.samples).training_samples();
+// What a regressor of these features learns from.
+SampleSet samples_for(const Regressor& regressor, const std::string& database) {
+  TrainingChoice choice;
+  choice.end_game = learns_end_game(regressor.feature_set());
+  return read_database(database).training_samples(choice);
+}
+
+SampleSet inspected_samples(const Regressor& regressor, const InspectOptions& options) {
+  if (!options.samples.empty()) return samples_for(regressor, options.samples);
   if (options.scene.empty()) return {};
   Scene scene = read_scene(options.scene);
   scene.run.cache = open_cache(options.cache);
@@ -121,12 +128,12 @@ ordered_json inspection(const InspectOptions& options) {
                     "use `conchoid forest info`",
                     options.file, regressor_kind(regressor->name()).title));
   }
-  const SampleSet samples = inspected_samples(options);
+  const SampleSet samples = inspected_samples(*regressor, options);
   out["features"] = influences_json(*regressor, samples);
   out["coverage"] = coverage_json(*regressor, samples);
   if (!options.training.empty())
-    out["coverage"]["neighbours"] = neighbours_json(
-        neighbour_coverage(*regressor, read_database(options.training).training_samples(), samples));
+    out["coverage"]["neighbours"] =
+        neighbours_json(neighbour_coverage(*regressor, samples_for(*regressor, options.training), samples));
   out["accuracy"] = accuracy_json(*regressor, samples);
   return out;
 }

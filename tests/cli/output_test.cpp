@@ -229,7 +229,7 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
     const json seen =
         json_of(folder, {"forest", "inspect", model, "--samples", "cube.h5", "--training", "cube.h5"});
     EXPECT_EQ(seen["modes"].is_null(), model == "ridge");
-    EXPECT_EQ(seen["coverage"]["in_range"], info["samples"]);
+    EXPECT_EQ(seen["coverage"]["in_range"], accuracy["samples"]);
     EXPECT_EQ(seen["coverage"]["neighbours"]["median"], 0.0);
     EXPECT_EQ(seen["features"].size(), seen["coverage"]["features"].size());
     EXPECT_EQ(seen["accuracy"][model]["r2"], accuracy["r2"]);
