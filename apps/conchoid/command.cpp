@@ -38,6 +38,13 @@ std::shared_ptr<const ByteCache> open_cache(const std::string& folder) {
   return folder.empty() ? nullptr : std::make_shared<const ByteCache>(folder);
 }
 
+void add_regressor_argument(CLI::App& command, std::string& file) {
+  command
+      .add_option("FILE", file,
+                  "file written by forest train, or name of a database that comes with conchoid")
+      ->required();
+}
+
 void print(const std::string& text) {
   if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0)
     throw ComputationError("stdout: the result could not be written; is the disk full or the pipe closed?");

@@ -38,6 +38,9 @@ void add_cache_option(CLI::App& command, std::string& folder);
 /// The folder's cache, or null for an empty name. Throws InputError where it cannot be made.
 std::shared_ptr<const ByteCache> open_cache(const std::string& folder);
 
+/// Adds the argument FILE, a regressor: a file, or the name of one that comes with the program (learn/shipped.hpp).
+void add_regressor_argument(CLI::App& command, std::string& file);
+
 /// Names of the modes of fracture, as in every output.
 inline constexpr std::array kModes = {"I", "II", "III"};
 

@@ -152,18 +152,12 @@ void add_forest(CLI::App& program, Invocation& invocation) {
   allow_one_command(*group);
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
-  const auto add_file = [options](CLI::App* command) {
-    command
-        ->add_option("FILE", options->file,
-                     "file written by forest train, or name of a database that comes with conchoid")
-        ->required();
-    return command;
-  };
-  add_file(add_command(
+  CLI::App* info = add_command(
       *group, invocation, "info", "Settings, provenance and ranges of the training", [options, &invocation] {
         const std::unique_ptr<Regressor> model = load_regressor(database_file(options->file));
         print(invocation.common.json ? json_text(*model) : regressor_text(*model));
-      }));
+      });
+  add_regressor_argument(*info, options->file);
   add_forest_evaluate(*group, invocation);
   add_forest_inspect(*group, invocation);
 }

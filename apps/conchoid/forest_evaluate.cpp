@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -104,7 +103,6 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
 }  // namespace
 
 std::string one_step_text(const Evaluation& e) {
-  constexpr std::array modes = {"I", "II", "III"};
   std::vector<Score> scores = {e.model};
   scores.insert(scores.end(), e.baselines.begin(), e.baselines.end());
   std::string text = fmt::format("{} samples of {} runs, {} in the range of the training\n", e.samples,
@@ -114,7 +112,7 @@ std::string one_step_text(const Evaluation& e) {
     for (const Score& score : scores)
       text += fmt::format(" {:>12}", score.name);
   for (Eigen::Index mode = 0; mode < 3; ++mode) {
-    text += fmt::format("\n{:<5}", modes[static_cast<std::size_t>(mode)]);
+    text += fmt::format("\n{:<5}", kModes[static_cast<std::size_t>(mode)]);
     for (const Score& score : scores)
       text += fmt::format(" {:12.4f}", score.accuracy.r2[mode]);
     for (const Score& score : scores)
@@ -141,10 +139,7 @@ void add_forest_evaluate(CLI::App& group, Invocation& invocation) {
         options->samples.empty() ? runs_of_specification(*options, *model, invocation.common.json)
                                  : one_step(*options, *model, invocation.common.json);
       });
-  command
-      ->add_option("FILE", options->file,
-                   "file written by forest train, or name of a database that comes with conchoid")
-      ->required();
+  add_regressor_argument(*command, options->file);
   command->add_option("--samples", options->samples, "database file (HDF5): accuracy in one step");
   command
       ->add_option("--only", options->choice.only,

@@ -12,7 +12,6 @@
 #include "conchoid/learn/inspection.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/shipped.hpp"
-#include "conchoid/sim/front_history.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/run.hpp"
 
@@ -96,7 +95,6 @@ ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples)
   return out;
 }
 
-/// Samples by which to inspect: of a database, or of a scene solved by boundary elements.
 // What a regressor of these features learns from.
 SampleSet samples_for(const Regressor& regressor, const std::string& database) {
   TrainingChoice choice;
@@ -104,6 +102,7 @@ SampleSet samples_for(const Regressor& regressor, const std::string& database) {
   return read_database(database).training_samples(choice);
 }
 
+// Of a database, or of a scene solved by boundary elements.
 SampleSet inspected_samples(const Regressor& regressor, const InspectOptions& options) {
   if (!options.samples.empty()) return samples_for(regressor, options.samples);
   if (options.scene.empty()) return {};
@@ -111,6 +110,7 @@ SampleSet inspected_samples(const Regressor& regressor, const InspectOptions& op
   scene.run.cache = open_cache(options.cache);
   RunOptions run;
   run.fragments = false;
+  run.measured_samples = regressor.looks_around();
   return run_scene(scene, run).samples;
 }
 
@@ -226,7 +226,7 @@ void add_forest_inspect(CLI::App& group, Invocation& invocation) {
         const ordered_json json = inspection(*options);
         print(invocation.common.json ? json.dump() : inspection_text(json));
       });
-  command->add_option("FILE", options->file, "file written by forest train")->required();
+  add_regressor_argument(*command, options->file);
   CLI::Option* samples =
       command->add_option("--samples", options->samples, "database file (HDF5) to inspect it by");
   command

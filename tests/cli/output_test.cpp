@@ -192,6 +192,19 @@ TEST(Run, TheSteadyRunIsComparedWithTheSolvedOne) {
   EXPECT_TRUE(other.contains("largest_fragment_iou"));
 }
 
+// A solved scene measures around its fronts what the regressor looks at.
+TEST(Prediction, AForestForAnyBodyIsInspectedByAScene) {
+  const TemporaryFolder folder;
+  folder.write("cube.toml", kPulledCube);
+  const json coverage =
+      json_of(folder, {"forest", "inspect", "versatile", "--scene", "cube.toml"})["coverage"];
+  ASSERT_GT(coverage["samples"].get<int>(), 0);
+  for (const auto& feature : coverage["features"])
+    if (feature["name"] == "r_bar/crack_radius" || feature["name"] == "wall") {
+      EXPECT_GT(feature["median"].get<double>(), 0) << feature["name"];
+    }
+}
+
 TEST(Prediction, FromSpecificationToPredictedRun) {
   const TemporaryFolder folder;
   folder.write("spec.toml", kSpec);

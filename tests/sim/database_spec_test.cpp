@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "conchoid/core/error.hpp"
+#include "refusal.hpp"
 
 using namespace conchoid;
 
@@ -21,12 +22,7 @@ DatabaseSpec parse(const std::string& text) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal([&] { parse(text); });
 }
 
 }  // namespace

@@ -98,11 +98,17 @@ double largest_tension(const Scene& scene) {
   return largest;
 }
 
-std::string draw_scene(int seed, const test::TemporaryFolder& folder, int& cracks) {
+struct DrawnScene {
+  std::string text;
+  int cracks = 0;
+  double section = 0;  ///< Body::section
+};
+
+DrawnScene draw_scene(int seed, const test::TemporaryFolder& folder) {
   Random random(static_cast<std::uint64_t>(seed));
   const Body body = draw_body(static_cast<std::size_t>(seed) % 8);
   const Box box = bounding_box(body.mesh);
-  cracks = 1 + static_cast<int>(random.index(6));
+  const int cracks = 1 + static_cast<int>(random.index(6));
   const double factor = random.uniform(1.1, 4);
   const std::string file = test::write_mesh_in(folder, fmt::format("body-{}.ply", seed), body.mesh);
   const std::string rest =
@@ -118,7 +124,7 @@ std::string draw_scene(int seed, const test::TemporaryFolder& folder, int& crack
                                 .toughness = 0.5 * strength * std::sqrt(body.crack_edge)}) +
            fmt::format("[run]\nframes = 60\nmax_cracks = {}\n", most);
   };
-  return text(largest_tension(test::scene_from_text(text(1e6, 0))) / factor, cracks);
+  return {text(largest_tension(test::scene_from_text(text(1e6, 0))) / factor, cracks), cracks, body.section};
 }
 
 /// Largest K_I of a point that could move, over K_c, in the last frame.
@@ -135,8 +141,7 @@ TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
   const test::TemporaryFolder folder;
   RunOptions options;
   options.progress = false;
-  int cracks = 0;
-  const std::string text = draw_scene(GetParam(), folder, cracks);
+  const auto [text, cracks, section] = draw_scene(GetParam(), folder);
   const Scene scene = test::scene_from_text(text);
   const RunResult result = run_scene(scene, options);
   const StopReason stop = result.document.stop;
@@ -152,7 +157,7 @@ TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
     volume += f.volume;
   }
   EXPECT_NEAR(volume, result.document.body_volume, 1e-9 * result.document.body_volume) << text;
-  if (const double section = draw_body(static_cast<std::size_t>(GetParam()) % 8).section; section > 0) {
+  if (section > 0) {
     const double sections = surface_area(result.crack) / section;
     RecordProperty("sections", test::text(sections));
     EXPECT_LE(sections, cracks + 1) << text;

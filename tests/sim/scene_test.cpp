@@ -5,6 +5,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/settings.hpp"
+#include "refusal.hpp"
 #include "temporary_folder.hpp"
 
 using namespace conchoid;
@@ -20,12 +21,7 @@ Scene parse(const std::string& text) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal([&] { parse(text); });
 }
 
 struct BrokenScene {

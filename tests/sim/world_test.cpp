@@ -11,6 +11,7 @@
 #include "conchoid/sim/generate.hpp"
 #include "conchoid/sim/make_runs.hpp"
 #include "conchoid/sim/world_bodies.hpp"
+#include "refusal.hpp"
 #include "temporary_folder.hpp"
 
 namespace conchoid {
@@ -21,12 +22,7 @@ DatabaseSpec parse(const std::string& text) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal([&] { parse(text); });
 }
 
 class BodyClasses : public testing::TestWithParam<std::string_view> {};

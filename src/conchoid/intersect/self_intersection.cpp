@@ -7,6 +7,7 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
 #include "conchoid/mesh/box_tree.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
 namespace {
@@ -199,17 +200,13 @@ bool triangles_at_edge_meet(const Vec3& a, const Vec3& b, const Vec3& c, const V
   return turn(a, b, c, pr) == turn(a, b, d, pr);
 }
 
-}  // namespace
-
-namespace {
-
 // A tree of the triangles within the box of some faces: the others touch none of these.
 struct Neighbourhood {
   std::vector<TriId> ids;  // empty: all
   BoxTree tree;
 
   Neighbourhood(const TriMesh& mesh, const std::vector<TriId>& faces)
-      : ids(within_box(mesh, faces)), tree(ids.empty() ? BoxTree(mesh) : BoxTree(triangles(mesh, ids))) {}
+      : ids(within_box(mesh, faces)), tree(ids.empty() ? BoxTree(mesh) : BoxTree(submesh(mesh, ids))) {}
   TriId id(TriId of_tree) const { return ids.empty() ? of_tree : ids[of_tree.index()]; }
 
  private:
@@ -222,13 +219,6 @@ struct Neighbourhood {
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
       if (overlap(box, box_of(mesh.triangle(TriId(t))))) ids.emplace_back(t);
     return ids;
-  }
-  static TriMesh triangles(const TriMesh& mesh, const std::vector<TriId>& ids) {
-    TriMesh out;
-    out.positions = mesh.positions;
-    for (const TriId t : ids)
-      out.corners.push_back(mesh.corners[t]);
-    return out;
   }
 };
 

@@ -22,11 +22,12 @@ SampleSet at_most(const SampleSet& samples, std::size_t count) {
   return samples.subset(chosen);
 }
 
-void require_some(const SampleSet& samples) {
+void require_samples(const Regressor& regressor, const SampleSet& samples) {
   if (samples.empty())
     throw InputError(
         "there are no samples to inspect by; name a database with runs that crack, or a scene "
         "whose crack grows over several frames");
+  require_recorded(regressor.feature_set(), samples);
 }
 
 double& entry(FeatureMatrix& rows, std::size_t row, std::size_t column) {
@@ -156,7 +157,7 @@ Vec3 labels_apart(const std::vector<Vec3>& labels, const std::vector<Nearest>& n
 
 std::vector<FeatureInfluence> feature_influences(const Regressor& regressor, const SampleSet& all,
                                                  std::uint64_t seed) {
-  require_some(all);
+  require_samples(regressor, all);
   const SampleSet samples = at_most(all, kInfluenceSamples);
   const FeatureSet set = regressor.feature_set();
   const FeatureMatrix rows = feature_matrix(samples, set);
@@ -178,7 +179,7 @@ std::vector<FeatureInfluence> feature_influences(const Regressor& regressor, con
 }
 
 RangeCoverage range_coverage(const Regressor& regressor, const SampleSet& samples) {
-  require_some(samples);
+  require_samples(regressor, samples);
   const FeatureMatrix rows = feature_matrix(samples, regressor.feature_set());
   RangeCoverage out;
   out.samples = rows.rows();
@@ -204,8 +205,8 @@ RangeCoverage range_coverage(const Regressor& regressor, const SampleSet& sample
 
 NeighbourCoverage neighbour_coverage(const Regressor& regressor, const SampleSet& training,
                                      const SampleSet& samples) {
-  require_some(samples);
-  require_some(training);
+  require_samples(regressor, samples);
+  require_samples(regressor, training);
   const FeatureSet set = regressor.feature_set();
   const std::vector<double> scales = feature_scales(regressor);
   const SampleSet some = at_most(samples, kNeighbourSamples),

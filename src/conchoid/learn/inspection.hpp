@@ -24,7 +24,7 @@ struct FeatureInfluence {
 };
 
 /// Influence of every feature. At most kInfluenceSamples of the samples count, drawn evenly from their list.
-/// Throws InputError for no samples, and as Regressor::predict does.
+/// Throws InputError for no samples, for samples without what the regressor looks at, and as Regressor::predict does.
 std::vector<FeatureInfluence> feature_influences(const Regressor& regressor, const SampleSet& samples,
                                                  std::uint64_t seed = 1);
 inline constexpr std::size_t kInfluenceSamples = 2000;

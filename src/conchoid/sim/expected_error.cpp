@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "conchoid/crack/law/criterion.hpp"
-#include "conchoid/sim/fracture.hpp"
+#include "conchoid/sim/ligament_rule.hpp"
 
 namespace conchoid {
 namespace {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/stopwatch.hpp"
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/law/criterion.hpp"
@@ -57,24 +57,7 @@ double smaller_parts(const std::vector<double>& volume) {
   return std::accumulate(volume.begin(), volume.end(), 0.0) - *std::max_element(volume.begin(), volume.end());
 }
 
-class Clock {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 }  // namespace
-
-bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m) {
-  return opening_from_intensity(K, crack_edge, m).norm() > kLargestOpening * crack_edge;
-}
 
 // On the heap and never moved: its parts refer to each other.
 struct Fracture::State {
@@ -230,7 +213,7 @@ void Fracture::State::start_cracks(StepReport& report) try {
 
 void Fracture::State::start(StepReport& report) {
   started = true;
-  Clock clock;
+  Stopwatch clock;
   if (body->cracks.empty() && settings.max_cracks > 0) {
     bem.solve(crack.cut);
     report.start_seconds = clock.lap();
@@ -305,7 +288,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
 }
 
 void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
-  Clock clock;
+  Stopwatch clock;
   report.front_points = crack.points.size();
   compute_openings(report);
   report.opening_seconds = clock.lap();
@@ -402,11 +385,17 @@ void Fracture::keep_rows(RowStore* store) {
 const PreparedBody& Fracture::body() const {
   return *state_->body;
 }
+std::shared_ptr<const PreparedBody> Fracture::shared_body() const {
+  return state_->body;
+}
 const RunSpec& Fracture::settings() const {
   return state_->settings;
 }
 const LoadCase& Fracture::load() const {
   return state_->bem.body().load();
+}
+std::size_t Fracture::loads() const {
+  return state_->bem.loads();
 }
 int Fracture::frame() const {
   return state_->frame;

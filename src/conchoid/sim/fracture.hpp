@@ -16,9 +16,6 @@ namespace conchoid {
 
 class Fracture;
 
-/// Whether K stands for an opening beyond kLargestOpening (learn/sample.hpp). @param crack_edge  r̄ [m]
-bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m);
-
 /// What a point of the front does in a frame; in the order of CrackState::points.
 struct FrontDecision {
   double drive = 0;      ///< K_eff [Pa√m]
@@ -101,8 +98,12 @@ class Fracture {
   void keep_rows(RowStore* store);
 
   const PreparedBody& body() const;
+  /// The same, to be kept for longer than the fracture.
+  std::shared_ptr<const PreparedBody> shared_body() const;
   const RunSpec& settings() const;
   const LoadCase& load() const;
+  /// How often it was replaced.
+  std::size_t loads() const;
   /// Number of frames whose opening is known, and of those counted from.
   int frame() const;
   std::optional<StopReason> stop() const;

@@ -29,11 +29,13 @@ bool is_driven(const LastLigament& ligament, const FrontReadings& front, double 
 
 }  // namespace
 
+bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m) {
+  return opening_from_intensity(K, crack_edge, m).norm() > kLargestOpening * crack_edge;
+}
+
 bool is_unresolved(const FrontReadings& front) {
-  const double r = front.crack_edge;
   for (const FrontOpening& opening : front.openings)
-    if (!opening.known ||
-        opening_from_intensity(opening.intensity, r, front.material).norm() > kLargestOpening * r)
+    if (!opening.known || opens_beyond_elasticity(opening.intensity, front.crack_edge, front.material))
       return true;
   return front.openings.empty();
 }

@@ -17,6 +17,10 @@ struct FrontReadings {
   bool carried;       ///< the frame could not be solved
 };
 
+/// Whether K stands for an opening beyond kLargestOpening (learn/sample.hpp): what holds there is a ligament.
+/// @param crack_edge  r̄ [m]
+bool opens_beyond_elasticity(const Vec3& K, double crack_edge, const ElasticConstants& m);
+
 /// Whether the elements cannot resolve the opening somewhere, or there is no front.
 bool is_unresolved(const FrontReadings& front);
 

@@ -1,23 +1,17 @@
 #include "conchoid/sim/make_runs.hpp"
 
-#include <chrono>
 #include <map>
 #include <optional>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/stopwatch.hpp"
 #include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/recorders.hpp"
 
 namespace conchoid {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 PreparedRun under_drawn_load(const DatabaseSpec& spec, std::shared_ptr<const PreparedBody> body,
                              std::int32_t run) {
@@ -63,7 +57,7 @@ void exclude(RunRecord& record, const std::exception& error) {
 }
 
 RunPart computed(const DatabaseSpec& spec, PreparedRun run) {
-  const auto start = Clock::now();
+  const Stopwatch clock;
   RunPart out{std::move(run.record), {}};
   RunRecord& record = out.record;
   try {
@@ -87,7 +81,7 @@ RunPart computed(const DatabaseSpec& spec, PreparedRun run) {
   } catch (const ComputationError& error) {
     exclude(record, error);
   }
-  record.wall_seconds = seconds_since(start);
+  record.wall_seconds = clock.seconds();
   return out;
 }
 

@@ -103,12 +103,12 @@ void PredictedOpening::set_intensity(const FrontPoint& point, const Vec3& K, Fro
 }
 
 OpeningByPredictor::OpeningByPredictor(const PredictionContext& c, const OpeningPredictor& predictor)
-    : PredictedOpening(c), predictor_(predictor), bem_(c.bem) {
+    : PredictedOpening(c), predictor_(predictor) {
   if (predictor.looks_around()) surroundings_ = std::make_unique<FrontSurroundings>(c.body);
 }
 
 void OpeningByPredictor::look_at(const CrackState& crack) {
-  if (surroundings_) surroundings_->measure(crack, bem_.body().load(), bem_.loads());
+  if (surroundings_) surroundings_->measure(crack, bem().body().load(), bem().loads());
 }
 
 void OpeningByPredictor::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {

@@ -51,6 +51,7 @@ class PredictedOpening : public OpeningSource {
   /// K of a point, in its own frame, and the opening that belongs to it.
   void set_intensity(const FrontPoint& point, const Vec3& K, FrontOpening& out) const;
   const SifSettings& sif() const { return sif_; }
+  const BemOpening& bem() const { return bem_; }
   const ElasticConstants& material() const { return material_; }
 
  private:
@@ -89,7 +90,6 @@ class OpeningByPredictor : public PredictedOpening {
   Vec3 turned_spread(const FrontFrame& before, const FrontPoint& point, const Vec3& spread) const;
 
   const OpeningPredictor& predictor_;
-  BemOpening& bem_;
   std::unique_ptr<FrontSurroundings> surroundings_;  // none: the predictor does not look around
 };
 

@@ -50,8 +50,8 @@ std::map<NodeId, std::size_t> nearest_points(const CrackState& crack) {
 
 FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
   if (fields_ == Fields::free) return nullptr;
-  if (body_ != &fracture.body()) {
-    body_ = &fracture.body();
+  if (body_ != fracture.shared_body()) {
+    body_ = fracture.shared_body();
     surroundings_ = std::make_unique<FrontSurroundings>(*body_);
   }
   return surroundings_.get();
@@ -61,7 +61,7 @@ void SampleRecorder::on_opening(const Fracture& fracture) {
   if (!fracture.solved() || fracture.predicts()) return;
   const CrackState& crack = fracture.crack();
   FrontSurroundings* around = surroundings(fracture);
-  if (around) around->measure(crack, fracture.load(), 0);
+  if (around) around->measure(crack, fracture.load(), fracture.loads());
   const std::map<NodeId, std::size_t> nearest = nearest_points(crack);
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const auto chosen = nearest.find(crack.points[i].correlation);

@@ -46,7 +46,7 @@ class SampleRecorder : public FractureObserver {
   FrontSurroundings* surroundings(const Fracture& fracture);
 
   Fields fields_;
-  const PreparedBody* body_ = nullptr;  // that the surroundings are of
+  std::shared_ptr<const PreparedBody> body_;  // that the surroundings are of
   std::unique_ptr<FrontSurroundings> surroundings_;
   SampleSet samples_;
 };

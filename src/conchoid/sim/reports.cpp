@@ -1,11 +1,11 @@
 #include "conchoid/sim/reports.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
+#include "conchoid/core/stopwatch.hpp"
 #include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/opening_source.hpp"
 #include "conchoid/sim/resolution_warnings.hpp"
@@ -19,10 +19,6 @@ CrackState initial_crack(const PreparedBody& body) {
     append_part(crack.sheet, sheet);
   update_crack(crack, body.surface, body.crack_edge);
   return crack;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void solve(BemOpening& bem, const CrackState& crack) {
@@ -47,7 +43,7 @@ double opened_volume(const TriMesh& crack, const IdVector<NodeId, Vec3>& opening
 }  // namespace
 
 SifReport compute_sifs(const Scene& scene) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch clock;
   const PreparedBody body = prepare(scene);
   if (body.cracks.empty())
     throw InputError(scene.file + ": there is no crack to take stress intensity factors of; add a [[crack]]");
@@ -69,12 +65,12 @@ SifReport compute_sifs(const Scene& scene) {
   }
   report.triangles = crack.trimmed.triangle_count();
   report.opened_volume = opened_volume(crack.trimmed, bem.body().opening());
-  report.seconds = seconds_since(start);
+  report.seconds = clock.seconds();
   return report;
 }
 
 StressReport compute_stress(const Scene& scene) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch clock;
   if (scene.body.infinite())
     throw InputError(scene.body.where +
                      ": the infinite body has no surface to show stress on; use a body with one");
@@ -95,7 +91,7 @@ StressReport compute_stress(const Scene& scene) {
   }
   for (const Vec3& u : bem.body().displacement())
     report.max_displacement = std::max(report.max_displacement, u.norm());
-  report.seconds = seconds_since(start);
+  report.seconds = clock.seconds();
   return report;
 }
 

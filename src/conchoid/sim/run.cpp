@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/core/stopwatch.hpp"
 #include "conchoid/core/undisturbed.hpp"
 #include "conchoid/sim/body_elements.hpp"
 #include "conchoid/sim/breakup.hpp"
@@ -20,10 +19,6 @@
 
 namespace conchoid {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::string result_hash(const RunResult& result) {
   ContentHash hash;
@@ -181,7 +176,7 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   const OpeningMethod& method = checked_method(options.method, options.regressor, options.tolerance);
   const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
                                                      options.formats ? "--format" : scene.output.where);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch clock;
   const std::vector<std::string> said = of_scene.warnings;
   const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
   RunResult result;
@@ -200,7 +195,8 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   }
   FrontRecorder front;
   GrowthRecorder growth;
-  SampleRecorder samples;
+  SampleRecorder samples(options.measured_samples ? SampleRecorder::Fields::all
+                                                  : SampleRecorder::Fields::free);
   LoadReport load;
   ReportWriter report(doc);
   for (FractureObserver* observer :
@@ -222,7 +218,7 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   result.cracks = static_cast<int>(breakup.cracks());
   result.largest_growth = growth.largest();
   doc.hash = result_hash(result);
-  doc.total_seconds = seconds_since(start);
+  doc.total_seconds = clock.seconds();
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
   if (places.folder) write_results(result, formats, body->surface_edge, *places.folder);

@@ -19,6 +19,7 @@ struct RunOptions {
   std::string method = "bem";                       ///< where the opening comes from: sim/methods.hpp
   const Regressor* regressor = nullptr;             ///< for the methods that need one
   std::optional<double> tolerance;                  ///< of hybrid runs (PredictionContext); none: standard
+  bool measured_samples = false;                    ///< samples hold what is measured around fronts, too
   std::optional<int> frames;                        ///< in place of the scene's
   std::optional<std::filesystem::path> folder;      ///< run folder to write; none: nothing is written
   std::optional<std::vector<std::string>> formats;  ///< of the pieces, in place of the scene's

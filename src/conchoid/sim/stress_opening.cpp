@@ -70,11 +70,11 @@ Vec3 intensity_from_stress(const Mat3& stress, const FrontFrame& frame, double a
 }
 
 StressOpening::StressOpening(const PredictionContext& context)
-    : PredictedOpening(context), bem_(context.bem), uncracked_(context.body) {}
+    : PredictedOpening(context), uncracked_(context.body) {}
 
 std::vector<FrontOpening> StressOpening::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
-  std::vector<Mat3> stress = uncracked_.at_points(crack, bem_.body().load(), bem_.loads());
+  std::vector<Mat3> stress = uncracked_.at_points(crack, bem().body().load(), bem().loads());
   smooth(point_chains(crack), stress);
   const std::vector<CrackSize> sizes = crack_sizes(crack);
   for (std::size_t i = 0; i < out.size(); ++i) {

@@ -36,7 +36,6 @@ class StressOpening : public PredictedOpening {
  private:
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
 
-  BemOpening& bem_;
   mutable UncrackedStress uncracked_;
 };
 

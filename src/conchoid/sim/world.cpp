@@ -203,8 +203,7 @@ WorldBody draw_world_body(const WorldSpec& world, std::uint64_t seed, int body) 
   out.axis = drawn.axis;
   out.body.name = out.scene.file;
   out.body.surface = out.body.detailed = drawn.surface;
-  out.body.regions =
-      regions_of(drawn.surface, drawn.axis, out.body_class == "tube" || out.body_class == "cup");
+  out.body.regions = regions_of(drawn.surface, drawn.axis, drawn.hollow);
   const double edge =
       std::min(random.uniform(0.1, 0.15) * std::cbrt(enclosed_volume(drawn.surface)), 0.5 * drawn.thickness);
   out.scene.resolution.crack = edge;

@@ -113,7 +113,7 @@ RandomBody random_tube(int elements, Random& random) {
   const double area = 2 * std::numbers::pi * ((outer + inner) * 2 * h + outer * outer - inner * inner);
   return {
       turned({{outer, -h}, {outer, h}, {inner, h}, {inner, -h}}, OutlineKind::ring, area, outer, elements),
-      Vec3::UnitZ(), std::min(outer - inner, 2 * h)};
+      Vec3::UnitZ(), std::min(outer - inner, 2 * h), true};
 }
 
 RandomBody random_cup(int elements, Random& random) {
@@ -129,7 +129,7 @@ RandomBody random_cup(int elements, Random& random) {
                                              {belly - wall, 0},
                                              {foot - wall, wall - h},
                                              {0, wall - h}};
-  return {turned(outline, OutlineKind::on_axis, area, belly, elements), Vec3::UnitZ(), wall};
+  return {turned(outline, OutlineKind::on_axis, area, belly, elements), Vec3::UnitZ(), wall, true};
 }
 
 RandomBody random_blob(int elements, Random& random) {

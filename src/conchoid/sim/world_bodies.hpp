@@ -14,6 +14,7 @@ struct RandomBody {
   TriMesh surface;            ///< closed, oriented outward, about a metre across
   Vec3 axis = Vec3::UnitZ();  ///< unit vector along which it is held and pulled
   double thickness = 0;       ///< of its thinnest part [m]
+  bool hollow = false;        ///< has walls that look at the z axis
 };
 
 /// Classes of bodies:

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/progress.hpp"
+#include "conchoid/core/stopwatch.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/study/experiments/html_report.hpp"
 #include "conchoid/study/experiments/svg_plot.hpp"
@@ -71,7 +71,7 @@ StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& wo
   Progress progress("experiments", wanted.size());
   for (const Experiment* e : wanted) {
     message(fmt::format("{} …", e->title));
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch clock;
     Reproduction made{e, {}, 0, ""};
     try {
       made.findings = e->make(workshop);
@@ -79,7 +79,7 @@ StudyReport reproduce(const std::vector<const Experiment*>& wanted, Workshop& wo
       made.failure = error.what();
       warning(fmt::format("{}: {}", e->name, made.failure));
     }
-    made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    made.seconds = clock.seconds();
     write_findings(made, workshop.folder());
     report.made.push_back(std::move(made));
     report.specifications = {workshop.specifications().begin(), workshop.specifications().end()};
