@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "conchoid/sim/run.hpp"
 #include "hollow_bodies.hpp"
@@ -96,7 +98,6 @@ struct Hollow {
   Vec3 crack;  ///< middle of the first crack, a rectangle across the wall
   double width;
   double crack_edge;
-  double off;  ///< × crack_edge, of the crack from its plane at most
 };
 
 void PrintTo(const Hollow& body, std::ostream* out) {
@@ -105,7 +106,8 @@ void PrintTo(const Hollow& body, std::ostream* out) {
 
 class HollowBodies : public testing::TestWithParam<Hollow> {};
 
-// The crack goes round the hole and meets itself.
+// In a plane in which the body is loaded alike on both sides the crack goes round the hole and meets itself. Both ends are loaded alike: held at one end, it would turn towards the
+// other.
 TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
   const Hollow& body = GetParam();
   const test::TemporaryFolder folder;
@@ -116,28 +118,62 @@ TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
       test::material_text({.toughness = 1e4}) + test::resolution_text(body.crack_edge, body.crack_edge / 6) +
       test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -box.low.z() - e)) +
       test::region_text("high", test::half_space_text(Vec3::UnitZ(), box.high.z() - e)) +
-      test::boundary_text("high", "traction", {0, 0, 1e6}) + "[[boundary]]\nregion = 'low'\nfixed = true\n" +
+      test::boundary_text("high", "force", {0, 0, 1e6}) + test::boundary_text("low", "force", {0, 0, -1e6}) +
       fmt::format("[[crack]]\nkind = 'rectangle'\ncenter = {}\nedges = [[{}, 0, 0], [0, {}, 0]]\n",
                   test::text(body.crack), body.width, 0.8) +
       "[run]\nframes = 60\nmax_cracks = 0\n");
   expect_pieces(result, 2);
   EXPECT_EQ(result.fragments.size(), 2u);
-  double off = 0;
+  double largest = 0, sum = 0;
+  const auto off = [&](const Vec3& x) { return std::abs(x.z() - body.crack.z()) / body.crack_edge; };
   for (const Vec3& x : result.crack.positions)
-    off = std::max(off, std::abs(x.z() - body.crack.z()));
-  RecordProperty("off", test::text(off / body.crack_edge));
-  EXPECT_LT(off, body.off * body.crack_edge);
+    largest = std::max(largest, off(x));
+  for (std::size_t t = 0; t < result.crack.triangle_count(); ++t)
+    sum += area_vector(result.crack, TriId(t)).norm() * off(centroid(result.crack, TriId(t)));
+  const double mean = sum / surface_area(result.crack);
+  RecordProperty("largest off", test::text(largest));
+  RecordProperty("mean off", test::text(mean));
+  EXPECT_LT(largest, 0.3);
+  EXPECT_LT(mean, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, HollowBodies,
-    testing::Values(Hollow{"Tube", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 0.4},
-                    Hollow{"ThinnerTube", shapes::tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16, 0.25},
-                    Hollow{"ThickTube", shapes::tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22, 0.2},
-                    Hollow{"TubeOfThreeRows", shapes::tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.14, 0.15},
-                    Hollow{"Cavity", shapes::block_with_cavity(8, 1, 5), {4, 0, 0}, 1.5, 0.5, 1},
-                    Hollow{"Cup", shapes::cup(), {1, 0, 0.31}, 1, 0.2, 0.25}),
-    [](const auto& info) { return std::string(info.param.name); });
+Hollow turned_by(Hollow body, double angle) {
+  const Eigen::AngleAxisd turn(angle, Vec3::UnitZ());
+  for (Vec3& x : body.mesh.positions)
+    x = turn * x;
+  return body;
+}
+
+// Twenty, of which the first six are broken in every run of the tests, all where CONCHOID_ALL_SCENES is set.
+std::vector<Hollow> hollow_bodies() {
+  using namespace shapes;
+  std::vector<Hollow> bodies{
+      {"Tube", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2},
+      {"ThinnerTube", tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16},
+      {"ThickTube", tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22},
+      {"TubeOfThreeRows", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.14},
+      {"Cavity", block_with_cavity(8, 1, 5), {4, 0, 0}, 1.5, 0.5},
+      {"Cup", cup(), {1, 0, 0.31}, 1, 0.2},
+  };
+  if (std::getenv("CONCHOID_ALL_SCENES") == nullptr) return bodies;
+  for (const double z : {-0.11, 0.0, 0.17})
+    bodies.push_back({"TubeAtAnotherHeight", tube(1, 0.6, 4, 8), {1, 0, z}, 1, 0.2});
+  for (const double angle : {0.1, 0.2})
+    bodies.push_back(turned_by({"TurnedTube", tube(1, 0.6, 4, 9, 24), {1, 0, 0.03}, 1, 0.17}, angle));
+  bodies.push_back({"FineTube", tube(1, 0.5, 4, 16, 32), {1, 0, 0.06}, 1.1, 0.17});
+  for (const double angle : {0.3, 0.8})
+    bodies.push_back(turned_by({"TurnedCavity", block_with_cavity(8, 1, 5), {4, 0, 0}, 1.5, 0.5}, angle));
+  bodies.push_back({"CavityOffTheMiddle", block_with_cavity(8, 1, 6), {4, 0.7, 0}, 1.5, 0.45});
+  bodies.push_back({"LargeCavity", block_with_cavity(8, 2, 6), {4, 0, 0}, 1.5, 0.5});
+  bodies.push_back({"SmallCavity", block_with_cavity(4, 0.6, 5), {2, 0, 0}, 1, 0.3});
+  for (const double angle : {0.1, 0.25})
+    bodies.push_back(turned_by({"TurnedCup", cup(24), {1, 0, 0.31}, 1, 0.2}, angle));
+  bodies.push_back({"CupAtAnotherHeight", cup(), {1, 0, 0.9}, 1, 0.2});
+  return bodies;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, HollowBodies, testing::ValuesIn(hollow_bodies()),
+                         [](const auto& info) { return fmt::format("{}_{}", info.param.name, info.index); });
 
 }  // namespace
 }  // namespace conchoid

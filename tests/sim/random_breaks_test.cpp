@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "conchoid/core/random.hpp"
@@ -26,6 +28,7 @@ struct Body {
   double crack_edge;
   double end = 0;      ///< share of the height that is held and loaded; 0: the plane ends alone
   double section = 0;  ///< across a convex body [m²]
+  int elements = 0;    ///< it is remeshed to; 0: it is not
 };
 
 TriMesh centred(TriMesh mesh) {
@@ -54,25 +57,31 @@ Body draw_body(std::size_t kind) {
     case 6:
       return {shapes::cup(), 0.2};
     default:
-      return {centred(read_mesh(test::scans()[0].file)), 5, 0.1};
+      return {centred(read_mesh(test::scans()[0].file)), 5, 0.2, 0, 1200};
   }
 }
 
-std::string conditions(std::size_t kind, double angle, double low, double high, double end) {
-  const double e = end * (high - low) + 1e-6 * (high - low);
+std::string conditions(std::size_t kind, double angle, const Body& body) {
+  const Box box = bounding_box(body.mesh);
+  const double low = box.low.z(), high = box.high.z();
+  const double e = body.end * (high - low) + 1e-6 * (high - low);
   const std::string up = test::half_space_text(Vec3::UnitZ(), high - e);
   const std::string held = test::region_text("low", test::half_space_text(-Vec3::UnitZ(), -low - e)) +
                            "[[boundary]]\nregion = 'low'\nfixed = true\n";
   const auto loaded = [&](const Vec3& t) {
     return test::region_text("high", up) + held + test::boundary_text("high", "traction", t);
   };
+  double left = box.high.x(), right = box.low.x();
+  for (const Vec3& x : body.mesh.positions)
+    if (x.z() >= high - e) left = std::min(left, x.x()), right = std::max(right, x.x());
+  const double middle = 0.5 * (left + right) + 1e-3;
   switch (kind) {
     case 0:
       return loaded({0, 0, 1e6});
     case 1:
       return loaded({1e6 * std::cos(angle), 1e6 * std::sin(angle), 0});
     case 2:  // two halves of the upper end against each other
-      return test::region_text("right", up + ", " + test::half_space_text(Vec3::UnitX(), 1e-3)) +
+      return test::region_text("right", up + ", " + test::half_space_text(Vec3::UnitX(), middle)) +
              test::region_text("left", up) + held + test::boundary_text("right", "traction", {0, 1e6, 0}) +
              test::boundary_text("left", "traction", {0, -1e6, 0});
     default:
@@ -104,18 +113,17 @@ struct DrawnScene {
   double section = 0;  ///< Body::section
 };
 
-DrawnScene draw_scene(int seed, const test::TemporaryFolder& folder) {
+DrawnScene draw_scene(int seed, const std::filesystem::path& folder) {
   Random random(static_cast<std::uint64_t>(seed));
   const Body body = draw_body(static_cast<std::size_t>(seed) % 8);
-  const Box box = bounding_box(body.mesh);
   const int cracks = 1 + static_cast<int>(random.index(6));
   const double factor = random.uniform(1.1, 4);
-  const std::string file = test::write_mesh_in(folder, fmt::format("body-{}.ply", seed), body.mesh);
-  const std::string rest =
-      (seed % 8 == 7 ? test::mesh_body_text(file) + "remesh = 1200\n" : test::mesh_body_text(file)) +
-      test::resolution_text(body.crack_edge, body.crack_edge / 8) +
-      conditions(static_cast<std::size_t>(seed) / 8 % 4, random.uniform(0, 6.28), box.low.z(), box.high.z(),
-                 body.end);
+  const std::string file = (folder / fmt::format("body-{}.ply", seed)).string();
+  write_mesh(file, body.mesh);
+  const std::string rest = test::mesh_body_text(file) +
+                           (body.elements > 0 ? fmt::format("remesh = {}\n", body.elements) : "") +
+                           test::resolution_text(body.crack_edge, body.crack_edge / 8) +
+                           conditions(static_cast<std::size_t>(seed) / 8 % 4, random.uniform(0, 6.28), body);
   const auto text = [&](double strength, int most) {
     return rest +
            test::material_text({.E = 7e10,
@@ -135,13 +143,35 @@ double largest_drive(const RunResult& result, double toughness) {
   return largest;
 }
 
-class RandomBreaks : public testing::TestWithParam<int> {};
+/// Time of the slowest frame over that of a usual one.
+double slowest_frame(const std::vector<FrameRecord>& frames) {
+  std::vector<double> seconds;
+  for (const FrameRecord& f : frames)
+    seconds.push_back(f.opening_seconds + f.fracture_seconds + f.other_seconds);
+  if (seconds.empty()) return 1;
+  std::sort(seconds.begin(), seconds.end());
+  return seconds.back() / seconds[seconds.size() / 2];
+}
+
+/// Scenes stay in the folder that CONCHOID_KEEP_SCENES names, to be run by hand.
+class RandomBreaks : public testing::TestWithParam<int> {
+ protected:
+  DrawnScene draw() const {
+    const char* kept = std::getenv("CONCHOID_KEEP_SCENES");
+    const std::filesystem::path folder = kept != nullptr ? std::filesystem::path(kept) : temporary_.path();
+    DrawnScene drawn = draw_scene(GetParam(), folder);
+    std::ofstream(folder / fmt::format("scene-{}.toml", GetParam())) << drawn.text;
+    return drawn;
+  }
+
+ private:
+  test::TemporaryFolder temporary_;
+};
 
 TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
-  const test::TemporaryFolder folder;
   RunOptions options;
   options.progress = false;
-  const auto [text, cracks, section] = draw_scene(GetParam(), folder);
+  const auto [text, cracks, section] = draw();
   const Scene scene = test::scene_from_text(text);
   const RunResult result = run_scene(scene, options);
   const StopReason stop = result.document.stop;
@@ -163,6 +193,7 @@ TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
     EXPECT_LE(sections, cracks + 1) << text;
   }
   RecordProperty("K over K_c", test::text(result.document.largest_K_over_Kc.value_or(0)));
+  RecordProperty("slowest frame over median", test::text(slowest_frame(result.document.timings)));
   RecordProperty("stop", std::string(name(stop)));
   RecordProperty("pieces", static_cast<int>(result.fragments.size()));
 }

@@ -46,6 +46,6 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge,
 std::vector<FrontPoint> ligament_points(const CrackState& state);
 
 /// Share of an edge's length within which mouth nodes are merged for the boundary elements.
-inline constexpr double kMouthMerge = 0.1;
+inline constexpr double kMouthMerge = 0.02;
 
 }  // namespace conchoid

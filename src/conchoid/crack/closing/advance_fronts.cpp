@@ -43,7 +43,8 @@ void limit(StepLimits& limits, NodeId node, double length) {
 }
 
 /// Nodes that touch and have not been joined stop for good, unless the ligament is wide and will be narrow
-/// enough in the next frame; then both sides go on by a part of it.
+/// enough in the next frame; then both sides go on by a part of it. Outside of the body they go on as far as they do not
+/// pass each other.
 void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected, double target_edge,
                     StepLimits& limits) {
   std::unordered_map<NodeId, double> way;
@@ -53,6 +54,10 @@ void stop_at_fronts(CrackSheet& sheet, const std::vector<FrontMotion>& expected,
   for (const FrontTouch& touch : front_touches(sheet, expected, target_edge)) {
     const SheetFront& other = sheet.fronts[touch.other];
     const NodeId node = sheet.fronts[touch.front].nodes[touch.index];
+    if (sheet.state[node] == FrontState::outside) {
+      limit(limits, node, kShareOfGap * touch.gap);
+      continue;
+    }
     const std::array<NodeId, 2> ends{other.nodes[touch.edge],
                                      other.nodes[next_index(touch.edge, other.nodes.size(), other.closed)]};
     double opposite = 0;

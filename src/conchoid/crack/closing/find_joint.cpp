@@ -51,21 +51,20 @@ class JointFinder {
   /// A last ligament at the body's surface: the front is inside at a few nodes only, between two outside.
   std::optional<FrontJoint> narrow_bay(const std::vector<FrontMotion>& motions) const {
     const auto moves = moving(motions);
-    const auto inside = [&](NodeId n) { return sheet_.state[n] != FrontState::outside; };
     for (std::size_t f = 0; f < sheet_.fronts.size(); ++f) {
       const std::size_t n = size(f);
       if (n < kLastLigamentNodes + 3) continue;
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t begin = next_index(i, n, front(f).closed);
-        if (begin == i || inside(front(f).nodes[i]) || !inside(front(f).nodes[begin])) continue;
+        if (begin == i || is_inside(front(f).nodes[i]) || !is_inside(front(f).nodes[begin])) continue;
         Run run{f, i, 2};
         bool any = false;
         while (run.count <= kLastLigamentNodes + 1 && (front(f).closed || i + run.count < n) &&
-               inside(node(run, run.count - 1))) {
+               is_inside(node(run, run.count - 1))) {
           any = any || moves[node(run, run.count - 1).index()];
           ++run.count;
         }
-        if (!any || inside(node(run, run.count - 1)) || !opens(run)) continue;
+        if (!any || is_inside(node(run, run.count - 1)) || !opens(run)) continue;
         if (auto joint = split(f, run, kLongestBridgeOutside)) return joint;
       }
     }
@@ -116,6 +115,7 @@ class JointFinder {
 
   const SheetFront& front(std::size_t f) const { return sheet_.fronts[f]; }
   std::size_t size(std::size_t f) const { return front(f).nodes.size(); }
+  bool is_inside(NodeId n) const { return sheet_.state[n] != FrontState::outside; }
   const Vec3& position(NodeId n) const { return sheet_.mesh.positions[n]; }
   NodeId node(const Run& run, std::size_t k) const {
     return front(run.front).nodes[(run.begin + k) % size(run.front)];
@@ -124,7 +124,7 @@ class JointFinder {
   std::vector<Cell> facing_cells(const std::vector<FrontTouch>& touches) const {
     std::vector<Cell> cells;
     for (const FrontTouch& t : touches) {
-      if (t.gap > kWidestLigament * edge_) continue;
+      if (t.gap > kWidestLigament * edge_ || !is_inside(front(t.front).nodes[t.index])) continue;
       for (const std::size_t j : {t.edge, next_index(t.edge, size(t.other), front(t.other).closed)}) {
         if (normals_[front(t.front).nodes[t.index]].dot(normals_[front(t.other).nodes[j]]) < kAlikeSheets)
           continue;
@@ -323,12 +323,11 @@ class JointFinder {
     const NodeId after = own[next_index(place(own, nodes.back()), own.size(), front(run.front).closed)];
     const NodeId before =
         theirs[previous_index(place(theirs, others.front()), theirs.size(), front(other.front).closed)];
-    const auto outside = [&](NodeId x) { return sheet_.state[x] == FrontState::outside; };
     const auto near = [&](NodeId a, NodeId b) {
       return (position(a) - position(b)).norm() < kLongestBridgeEdge * edge_;
     };
-    const bool in = !outside(nodes.back()), other_in = !outside(others.front());
-    if (after == before || (in && !outside(after)) || (other_in && !outside(before))) return;
+    const bool in = is_inside(nodes.back()), other_in = is_inside(others.front());
+    if (after == before || (in && is_inside(after)) || (other_in && is_inside(before))) return;
     if (!near(in ? after : nodes.back(), other_in ? before : others.front())) return;
     if (in) nodes.push_back(after);
     if (other_in) others.insert(others.begin(), before);

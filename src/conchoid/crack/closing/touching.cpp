@@ -108,7 +108,7 @@ std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector
     const bool closing = closes(fronts[f], target_edge);
     for (std::size_t i = 0; i < fronts[f].nodes.size(); ++i) {
       const Mover& m = fronts[f].nodes[i];
-      if (!m.moves || m.state != FrontState::active) continue;
+      if (!m.moves || m.state == FrontState::arrested) continue;
       for (std::size_t g = 0; g < fronts.size(); ++g) {
         if (f == g && closing) continue;
         const std::size_t n = fronts[g].nodes.size();

@@ -6,7 +6,8 @@
 
 namespace conchoid {
 
-/// A front node that is about to touch an edge of a front (see touching_nodes).
+/// A front node that is about to touch an edge of a front (see touching_nodes). It may lie outside of the body: the
+/// ends of fronts that come round a hole must not pass each other in there.
 struct FrontTouch {
   std::size_t front = 0, index = 0;  ///< the node: front of the sheet, place in it
   std::size_t other = 0, edge = 0;   ///< the edge: from place `edge` of front `other` to the next
