@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -153,6 +154,69 @@ TEST(FrontJoint, ASlotCloses) {
   EXPECT_NEAR(surface_area(growth.sheet.mesh), full, 1e-9);
   EXPECT_NEAR(surface_area(growth.fine.surface()), full,
               1e-3 * full);  // markers overlap a little in its corners
+}
+
+// Part of a ring about the z axis, from angle `half_gap` round to −half_gap; rows kEdge apart.
+TriMesh open_ring(double inner, int rows, int around, double half_gap) {
+  TriMesh mesh;
+  for (int j = 0; j <= around; ++j)
+    for (int k = 0; k <= rows; ++k) {
+      const double phi = half_gap + (2 * std::numbers::pi - 2 * half_gap) * j / around;
+      mesh.positions.push_back((inner + k * kEdge) * Vec3(std::cos(phi), std::sin(phi), 0));
+    }
+  const auto node = [&](int j, int k) { return NodeId(j * (rows + 1) + k); };
+  for (int j = 0; j < around; ++j)
+    for (int k = 0; k < rows; ++k) {
+      mesh.corners.push_back({node(j, k), node(j, k + 1), node(j + 1, k + 1)});
+      mesh.corners.push_back({node(j, k), node(j + 1, k + 1), node(j + 1, k)});
+    }
+  return mesh;
+}
+
+bool crosses(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const auto side = [](const Vec3& p, const Vec3& q, const Vec3& x) { return (q - p).cross(x - p).z(); };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+// Edges of the fronts that cross each other, in a sheet in the plane z = 0.
+int crossings(const CrackSheet& sheet) {
+  std::vector<std::pair<NodeId, NodeId>> edges;
+  for (const SheetFront& front : sheet.fronts)
+    for (std::size_t i = 0; i < edge_count(front.nodes.size(), front.closed); ++i)
+      edges.emplace_back(front.nodes[i], front.nodes[next_index(i, front.nodes.size(), front.closed)]);
+  const auto& x = sheet.mesh.positions;
+  int count = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto [a, b] = edges[i];
+      const auto [c, d] = edges[j];
+      if (a != c && a != d && b != c && b != d) count += crosses(x[a], x[b], x[c], x[d]) ? 1 : 0;
+    }
+  return count;
+}
+
+// A crack that has come round a hole in a thick wall: its sheet sticks out into the hole, where its two ends come near
+// each other first.
+TEST(FrontJoint, EndsThatComeRoundAHoleDoNotPassEachOtherInIt) {
+  constexpr double hole = 2 * kEdge, wall = 7 * kEdge;
+  for (const double half_gap : {0.7, 0.8, 0.9, 1.0, 1.1, 1.2})
+    for (const double share : {0.5, 0.7, 0.9}) {
+      Growth growth(open_ring(hole - 0.4 * kEdge, 6, 24, half_gap));
+      CrackSheet& sheet = growth.sheet;
+      for (int frame = 0; frame < 8; ++frame) {
+        for (const SheetFront& front : sheet.fronts)
+          for (const NodeId n : front.nodes) {
+            const double r = sheet.mesh.positions[n].norm();
+            if (sheet.state[n] != FrontState::arrested)
+              sheet.state[n] = r < hole || r > wall ? FrontState::outside : FrontState::active;
+          }
+        growth.advance(with_drawn_nodes(
+            sheet, steps_of(
+                       sheet, [](NodeId) { return 0.0; }, [=](NodeId) { return intensity_for(share); })));
+        ASSERT_EQ(crossings(sheet), 0)
+            << "half a gap " << half_gap << ", share " << share << ", frame " << frame;
+      }
+    }
 }
 
 TEST(Relinked, ChainsAreCutAndTied) {

@@ -168,7 +168,7 @@ std::vector<Hollow> hollow_bodies() {
   bodies.push_back({"SmallCavity", block_with_cavity(4, 0.6, 5), {2, 0, 0}, 1, 0.3});
   for (const double angle : {0.1, 0.25})
     bodies.push_back(turned_by({"TurnedCup", cup(24), {1, 0, 0.31}, 1, 0.2}, angle));
-  bodies.push_back({"CupAtAnotherHeight", cup(), {1, 0, 0.9}, 1, 0.2});
+  bodies.push_back({"CupAtAnotherHeight", cup(), {1, 0, -0.1}, 1, 0.2});
   return bodies;
 }
 
