@@ -42,13 +42,17 @@ void project(const BlockView& out, std::span<const Row> rows, std::span<const Co
   }
 }
 
+// Kept pairs of a block lie all over memory: as many are on their way while one is worked on.
+constexpr std::size_t kPairsAhead = 8;
+
 std::vector<std::size_t> triangles_around(const BodyDiscretisation& body, std::span<const NodeId> nodes) {
-  std::vector<std::size_t> all;
+  std::vector<char> around(body.panels.size(), 0);
   for (NodeId node : nodes)
     for (const CornerAt& c : body.around[node.index()])
-      all.push_back(c.triangle);
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+      around[c.triangle] = 1;
+  std::vector<std::size_t> all;
+  for (std::size_t t = 0; t < around.size(); ++t)
+    if (around[t] != 0) all.push_back(t);
   return all;
 }
 
@@ -126,6 +130,12 @@ SingleLayerPair BodyEntries::pair(std::size_t x, std::size_t y) const {
                         : pairs_[x * (x + 1) / 2 + y];
 }
 
+void BodyEntries::fetch(std::size_t x, std::size_t y) const {
+  if (pairs_.empty()) return;
+  if (x < y) std::swap(x, y);
+  __builtin_prefetch(&pairs_[x * (x + 1) / 2 + y]);
+}
+
 void BodyEntries::single_layer(std::span<const TriId> rows, std::span<const TriId> columns,
                                BlockView out) const {
   clear(out, rows.size(), columns.size());
@@ -163,6 +173,7 @@ void BodyEntries::hypersingular(std::span<const NodeId> rows, std::span<const No
   for (std::size_t s = 0; s < test.size(); ++s) {
     std::fill(sums.begin(), sums.end(), PairBlocks::TrialSum());
     for (std::size_t t = 0; t < trial.size(); ++t) {
+      if (t + kPairsAhead < trial.size()) fetch(test[s], trial[t + kPairsAhead]);
       const PairBlocks blocks(pair(test[s], trial[t]), body_.m);
       for (int b = 0; b < 3; ++b)
         if (column[t][b] >= 0)

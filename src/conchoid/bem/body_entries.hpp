@@ -83,6 +83,7 @@ class BodyEntries {
 
  private:
   SingleLayerPair pair(std::size_t x, std::size_t y) const;
+  void fetch(std::size_t x, std::size_t y) const;  // a kept pair, into the cache
 
   const BodyDiscretisation& body_;
   std::vector<SingleLayerPair> pairs_;  // (x, y), x ≥ y, at x (x+1)/2 + y
