@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Boundary elements and prediction over the size of a body: set-up, time per frame, memory. A table, and a picture.
+
+    bench/curves.py BUILD [--sizes N…] [--table FILE] [--picture FILE] [--rounds N]
+
+The unit cube remeshed to N triangles, r̄ = 0.1, pulled askew (inertia relief), two threads, least of `--rounds`. Set-up is what a run needs
+before its first frame: the time of `conchoid stress` on the same scene. A frame is what is left of a run over its frames, and the opening's part of
+it; predicted runs solve their first frame, so theirs are means without it. Times are in units of c, bench/calibrate.cpp, taken before each size.
+The picture needs python3-matplotlib.
+"""
+import argparse
+import json
+import os
+import pathlib
+import platform
+import subprocess
+import tempfile
+import time
+
+SCENE = """[body]
+model = "cube"
+remesh = {size}
+[material]
+youngs_modulus = 3.1e9
+poisson_ratio = 0.327
+density = 1200.0
+strength = 7.6e7
+toughness = 1.0e6
+[resolution]
+crack = 0.1
+surface = 0.01
+[[boundary]]
+region = "z+"
+traction = [5.0e6, 0.0, 1.0e8]
+[[boundary]]
+region = "z-"
+traction = [-5.0e6, 0.0, -1.0e8]
+[run]
+max_cracks = 1
+inertia_relief = true
+after_separation = "stop"
+"""
+COLUMNS = ("triangles", "set-up", "GB", "BEM frames", "a frame", "of it opening", "predicted frames", "a frame", "of it opening",
+           "BEM over predicted")
+
+
+def measured(command, folder):
+    """(seconds, peak memory [GB], standard output) of a process."""
+    start = time.perf_counter()
+    with open(folder / "out.json", "w+") as out:
+        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.PIPE, text=True)
+        said = process.stderr.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        taken = time.perf_counter() - start
+        if status:
+            raise SystemExit(f"{' '.join(map(str, command))}: {said.strip()}")
+        out.seek(0)
+        return taken, usage.ru_maxrss / 1e6, out.read()
+
+
+class Curves:
+    def __init__(self, build, rounds, folder):
+        self.conchoid, self.calibration = build / "conchoid", build / "calibrate"
+        self.rounds, self.folder = rounds, folder
+
+    def least(self, *arguments):
+        command = [self.conchoid, *arguments, "--json", "--quiet", "--threads", "2"]
+        return min((measured(command, self.folder) for _ in range(self.rounds)), key=lambda m: m[0])
+
+    def frames(self, method, *more):
+        """(number of frames, seconds of a frame, of it its opening); of predicted runs without the first."""
+        best = None
+        for _ in range(self.rounds):
+            subprocess.run(["rm", "-rf", self.folder / "run"], check=True)
+            measured([self.conchoid, "run", "scene.toml", "--out", "run", "--method", method, *more, "--quiet", "--threads", "2", "--json"],
+                     self.folder)
+            timings = json.loads((self.folder / "run/run.json").read_text())["timings"]
+            shown = timings[0 if method == "bem" else 1:]
+            opening = sum(f["seconds"]["opening"] for f in shown) / len(shown)
+            rest = sum(f["seconds"]["fracture"] + f["seconds"]["other"] for f in shown) / len(shown)
+            if best is None or opening + rest < best[1]:
+                best = (len(timings), opening + rest, opening)
+        return best
+
+    def row(self, size):
+        (self.folder / "scene.toml").write_text(SCENE.format(size=size))
+        c = float(subprocess.run([self.calibration], capture_output=True, text=True, check=True).stdout.split()[0])
+        setup, memory, _ = self.least("stress", "scene.toml")
+        solved, predicted = self.frames("bem"), self.frames("forest", "--database", "versatile")
+        return {"triangles": size, "c": c, "setup": setup / c, "memory": memory, "solved": [solved[0], solved[1] / c, solved[2] / c],
+                "predicted": [predicted[0], predicted[1] / c, predicted[2] / c]}
+
+
+def table(rows):
+    lines = ["| " + " | ".join(COLUMNS) + " |", "|---" * len(COLUMNS) + "|"]
+    for r in rows:
+        s, p = r["solved"], r["predicted"]
+        cells = [f"{r['triangles']:,}", f"{r['setup']:.3g} c", f"{r['memory']:.2f}", s[0], f"{s[1]:.3g} c", f"{s[2]:.3g} c", p[0], f"{p[1]:.3g} c",
+                 f"{p[2]:.2g} c", f"{s[1] / p[1]:.1f} ({s[2] / p[2]:.0f})"]
+        lines.append("| " + " | ".join(map(str, cells)) + " |")
+    return "\n".join(lines)
+
+
+def picture(rows, path):
+    import matplotlib
+    matplotlib.use("svg" if path.suffix == ".svg" else "agg")
+    from matplotlib import pyplot
+    figure, (times, memory) = pyplot.subplots(1, 2, figsize=(10, 4))
+    sizes = [r["triangles"] for r in rows]
+    times.loglog(sizes, [r["setup"] for r in rows], "k-s", label="set-up")
+    for method, name, colour in (("solved", "boundary elements", "C0"), ("predicted", "predicted", "C1")):
+        times.loglog(sizes, [r[method][1] for r in rows], colour + "-o", label=f"a frame, {name}")
+        times.loglog(sizes, [r[method][2] for r in rows], colour + "--o", label="of it opening")
+    times.set(xlabel="triangles of the body", ylabel="c (about half a second)")
+    times.legend()
+    memory.loglog(sizes, [r["memory"] for r in rows], "k-s")
+    memory.set(xlabel="triangles of the body", ylabel="peak memory of the set-up [GB]")
+    for axes in (times, memory):
+        axes.grid(True, which="both", alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--sizes", type=int, nargs="+", default=[250, 500, 1000, 2000, 5000, 10000])
+    parser.add_argument("--rounds", type=int, default=2)
+    parser.add_argument("--table", type=pathlib.Path)
+    parser.add_argument("--picture", type=pathlib.Path)
+    options = parser.parse_args()
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        curves = Curves(options.build.resolve(), options.rounds, pathlib.Path(folder))
+        for size in options.sizes:
+            rows.append(curves.row(size))
+            print(json.dumps(rows[-1]), flush=True)
+    text = table(rows)
+    print(text)
+    if options.table:
+        units = ", ".join(f"{r['c']:.3f}" for r in rows)
+        options.table.write_text(f"# Over the size of a body\n\n`bench/curves.py` on {platform.processor() or platform.machine()}, "
+                                 f"{os.cpu_count()} cores, least of {options.rounds}; c {units} s.\n\n{text}\n")
+    if options.picture:
+        picture(rows, options.picture)
+
+
+if __name__ == "__main__":
+    main()
