@@ -48,7 +48,7 @@ def call(command):
 
 def run(program, folder, scene, extra):
     """Report of a run, and instructions in 10⁹ that its openings took."""
-    result = folder.with_suffix(".json")
+    result = folder.parent / f"{folder.name}.json"
     if result.exists():
         return json.loads(result.read_text())
     profile = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", f"--toggle-collect={OPENING}"]

@@ -53,7 +53,10 @@ RunDocument document_of(const std::vector<Fragment>& fragments) {
                 {"run.method", std::string("bem")}};
   d.versions = {{"conchoid", std::string("0.1.0")}};
   d.warnings = {"a warning"};
-  d.timings = {{1, "bem", {}, 24, 18, 0, 1.5e6, 0.1, 0.2, 0.3}};
+  d.timings = {{1, "bem", 24, 18, 0, 1.5e6, 0.1, 0.2, 0.3}};
+  d.timings[0].expected_error = 0.004;
+  d.solved_frames = 9;
+  d.expected_error = 0.0045;
   for (const Fragment& f : fragments)
     d.fragments.push_back(fragment_record(f));
   d.contacts = {{0, 1, 1.0}};
@@ -130,6 +133,9 @@ TEST(RunFolder, WhatWasWrittenComesBack) {
   EXPECT_EQ(std::get<bool>(run.document.settings[2].value), true);
   ASSERT_EQ(run.document.timings.size(), 1u);
   EXPECT_EQ(run.document.timings[0].front_nodes, 18u);
+  EXPECT_EQ(run.document.timings[0].expected_error, 0.004);
+  EXPECT_EQ(run.document.solved_frames, 9);
+  EXPECT_EQ(run.document.expected_error, 0.0045);
   EXPECT_EQ(run.crack.positions, sheet(8, 0.1).positions);
   EXPECT_EQ(run.front.size(), 2u);
   ASSERT_EQ(run.fragments.size(), 2u);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "conchoid/core/error.hpp"
@@ -77,14 +78,16 @@ TEST(Hybrid, BetweenItSolvesSomeFramesAndComesNearer) {
   EXPECT_LT(d.solved_frames, d.frames);
   EXPECT_LT(distance_from_solved(hybrid), 0.5 * distance_from_solved(kept));
   int solved = 0;
+  double largest = 0;
   for (const FrameRecord& frame : d.timings) {
     ASSERT_TRUE(frame.expected_error);
     EXPECT_LE(*frame.expected_error, 0.02) << frame.frame;
     EXPECT_TRUE(frame.source == "bem" || frame.source == "kept");
     solved += frame.source == "bem";
+    largest = std::max(largest, *frame.expected_error);
   }
   EXPECT_EQ(solved, d.solved_frames);
-  EXPECT_EQ(d.expected_error, d.timings.back().expected_error);
+  EXPECT_EQ(d.expected_error, largest);
   EXPECT_EQ(run(text, "hybrid", 0.02).document.hash, d.hash);
 }
 

@@ -25,13 +25,14 @@ struct FrameRecord {
   int frame = 0;
   std::string
       source;  ///< who gave the opening: a method (sim/methods.hpp) or "carried" (nothing could be solved)
-  std::optional<double> expected_error;  ///< of the surface so far, over the body's diagonal; hybrid runs
-  std::size_t crack_triangles = 0;       ///< BEM crack triangles after the frame
+  std::size_t crack_triangles = 0;  ///< BEM crack triangles after the frame
   std::size_t front_nodes = 0;
   double crack_area =
       0;  ///< of the BEM cracks after the frame [m²], of the body that breaks; 0: not recorded
   double max_K_eff = 0;  ///< largest effective intensity along the fronts [Pa √m]
   double opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;
+  std::optional<double> expected_error =
+      {};  ///< of the surface so far, over the body's diagonal; hybrid runs
 };
 
 /// What run.json and --json say about a fragment.
@@ -60,7 +61,7 @@ struct RunDocument {
   std::optional<double> stress_over_strength;  ///< largest σ1 / S_c before anything moved
   int frames = 0;
   int solved_frames = 0;                 ///< of these, by boundary elements
-  std::optional<double> expected_error;  ///< of the last body's surface over its diagonal; hybrid runs
+  std::optional<double> expected_error;  ///< largest of the frames (FrameRecord)
   int resumed_after = 0;  ///< complete frames that were found; the times are those of the run that went on
   std::size_t initial_triangles = 0, final_triangles = 0;
   double total_seconds = 0, opening_seconds = 0, fracture_seconds = 0, other_seconds = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
@@ -119,7 +121,8 @@ class ReportWriter : public FractureObserver {
     record.source = step.source;
     record.expected_error = step.expected_error;
     if (step.source == "bem") ++doc_.solved_frames;
-    doc_.expected_error = step.expected_error;
+    if (step.expected_error)
+      doc_.expected_error = std::max(doc_.expected_error.value_or(0), *step.expected_error);
     record.crack_triangles = step.crack_triangles;
     record.front_nodes = step.front_points;
     record.crack_area = surface_area(fracture.crack().trimmed);
