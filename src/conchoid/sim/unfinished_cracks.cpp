@@ -17,8 +17,10 @@ namespace {
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
 constexpr double kLeastArea = 1;    // × r̄²: of what goes on
-constexpr double kLift = 0.15;      // × r̄: to which it leaves such a face
-constexpr double kApart = 0.1;      // × r̄: what touched at a point only
+constexpr double kLeastDepth =
+    1;  // × r̄: how deep that goes; elements do not resolve what lies nearer to the surface
+constexpr double kLift = 0.15;  // × r̄: to which it leaves such a face
+constexpr double kApart = 0.1;  // × r̄: what touched at a point only
 
 // The faces that cut the piece free, as a mesh; without triangles if there are none.
 TriMesh cut_faces(const Fragment& piece, const TriMesh& solid) {
@@ -109,8 +111,16 @@ class SheetInPiece {
 bool goes_on_inside(const TriMesh& solid, const TriMesh& sheet, double crack_edge) {
   const CutComplex cut = corefine(solid, sheet);
   const TriMesh inside{cut.positions, cut.sheet};
-  return surface_area(inside) > kLeastArea * crack_edge * crack_edge &&
-         !find_fronts(inside, cut.mouth).empty();
+  if (!(surface_area(inside) > kLeastArea * crack_edge * crack_edge)) return false;
+  const ClosestPointTree surface(solid);
+  const double depth = kLeastDepth * crack_edge;
+  const auto deep = [&](NodeId n) {
+    return surface.closest(inside.positions[n]).squared_distance >= depth * depth;
+  };
+  const std::vector<Front> fronts = find_fronts(inside, cut.mouth);
+  return std::any_of(fronts.begin(), fronts.end(), [&](const Front& front) {
+    return std::any_of(front.nodes.begin(), front.nodes.end(), deep);
+  });
 }
 
 }  // namespace
