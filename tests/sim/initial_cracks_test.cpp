@@ -21,7 +21,7 @@ struct Pieces {
 
 Pieces cut(const TriMesh& sheet) {
   const TriMesh body = built_in_model("cube").mesh;
-  const CutComplex cut = corefine(body, sheet_in_body(sheet, body, "test"), {kMouthMerge});
+  const CutComplex cut = corefine(body, sheet_in_body(sheet, body, "test"), {kMouthMerge, kMouthBend});
   Pieces out;
   const auto look_at = [&](const std::array<NodeId, 3>& c) {
     const Vec3 &a = cut.positions[c[0]], &b = cut.positions[c[1]], &d = cut.positions[c[2]];

@@ -492,7 +492,8 @@ class Corefinement {
 CutComplex corefine(const TriMesh& surface, const TriMesh& sheet, const CorefineSettings& settings) {
   Corefinement corefinement(surface, sheet);
   CutComplex cut = corefinement.run();
-  if (settings.merge > 0) merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge);
+  if (settings.merge > 0)
+    merge_mouth(cut, surface, sheet, corefinement.supports(), settings.merge, settings.across);
   return cut;
 }
 

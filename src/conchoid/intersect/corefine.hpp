@@ -28,6 +28,8 @@ struct CorefineSettings {
   /// own node where one is near), so that no sliver spoils a boundary element system. 0: geometry exactly as
   /// it intersects.
   double merge = 0.0;
+  /// Likewise, how far a node may leave the plane of the sheet for that: the sheet is bent there.
+  double across = 1.0;
 };
 
 /// Cuts `surface` (closed, manifold, oriented outward) by `sheet` (open manifold, may stick out, may have

@@ -23,8 +23,11 @@ constexpr float farthest = 3;
 class Merger : private CutEditor {
  public:
   Merger(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
-         IdVector<NodeId, SurfaceSupport> supports, double merge)
-      : CutEditor(cut, surface, sheet), supports_(std::move(supports)), merge_(static_cast<float>(merge)) {}
+         IdVector<NodeId, SurfaceSupport> supports, double merge, double across)
+      : CutEditor(cut, surface, sheet),
+        supports_(std::move(supports)),
+        merge_(static_cast<float>(merge)),
+        across_(across) {}
 
   void run() {
     measure_sizes();
@@ -76,6 +79,16 @@ class Merger : private CutEditor {
     }
     for (const auto& [outer, best] : nearest)
       cut_.sheet_node[best.second] = outer;
+  }
+
+  /// Whether the sheet's pieces would be bent too far if one of their nodes went to x: it leaves the planes of the
+  /// triangles they come from.
+  bool bends(const std::vector<std::size_t>& pieces, const Vec3& x, double size) const {
+    return std::any_of(pieces.begin(), pieces.end(), [&](std::size_t p) {
+      const TriId parent = layers_[sheet_layer][p].parent;
+      const Vec3& on = sheet_.positions[sheet_.corners[parent][0]];
+      return std::abs((x - on).dot(unit_normal(sheet_, parent))) > across_ * size;
+    });
   }
 
   struct Candidate {
@@ -196,6 +209,7 @@ class Merger : private CutEditor {
     const auto gone = [&](NodeId x) { return std::find(run.begin(), run.end(), x) != run.end(); };
     std::size_t ends = 0;
     for (const NodeId m : run) {
+      if (on_mouth(m) && bends(layers_[sheet_layer].around(m), at(n), size_[m])) return false;
       if (on_mouth(m) && on_mouth(n)) {
         if (!is_mouth(m, n)) return false;  // two arms of the mouth would touch
         if (mouth_[m].size() == 1 && mouth_[n].size() == 1)
@@ -244,6 +258,7 @@ class Merger : private CutEditor {
         on_surface(m)) {  // the surface's own node beside the mouth: the mouth goes there
       const TriId face = layers_[surface_layer][on_edge[0]].parent;
       if (face != layers_[surface_layer][on_edge[1]].parent || !has(surface_.corners[face], m)) return false;
+      if (bends(layers_[sheet_layer].on_edge(p, q), at(m), std::min(size_[p], size_[q]))) return false;
     } else if (mouth_edge && !on_surface(m)) {  // a node of the sheet just below the surface: it comes up
       support = support_of_edge(p, q, on_edge);
       to = on_line;
@@ -256,6 +271,7 @@ class Merger : private CutEditor {
         return false;
       support = edge;
       to = on_line;
+      if (bends(layers_[sheet_layer].around(m), to, size_[m])) return false;
     } else {
       return false;
     }
@@ -341,14 +357,15 @@ class Merger : private CutEditor {
 
   IdVector<NodeId, SurfaceSupport> supports_;
   float merge_;
+  double across_;
   IdVector<NodeId, double> size_;
 };
 
 }  // namespace
 
 void merge_mouth(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
-                 IdVector<NodeId, SurfaceSupport> supports, double merge) {
-  if (!cut.mouth.empty()) Merger(cut, surface, sheet, std::move(supports), merge).run();
+                 IdVector<NodeId, SurfaceSupport> supports, double merge, double across) {
+  if (!cut.mouth.empty()) Merger(cut, surface, sheet, std::move(supports), merge, across).run();
 }
 
 }  // namespace conchoid

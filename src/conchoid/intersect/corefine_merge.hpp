@@ -24,9 +24,10 @@ struct SurfaceSupport {
 /// no piece turned over, mouth a curve with the same ends) and its worst piece gets better.
 /// A mouth node takes the place of the sheet's node just inside or outside (`sheet_node`).
 /// @param supports  per node of the complex
+/// @param across    how far a node may leave the plane of the sheet's triangles on its way, likewise
 /// @param merge     shortest edge and altitude aimed at, as a fraction of the size of the triangles that meet
 /// there
 void merge_mouth(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet,
-                 IdVector<NodeId, SurfaceSupport> supports, double merge);
+                 IdVector<NodeId, SurfaceSupport> supports, double merge, double across);
 
 }  // namespace conchoid

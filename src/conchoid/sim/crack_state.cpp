@@ -113,7 +113,7 @@ void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& 
         moved.positions[NodeId(i)] += shift * crack_edge * normals[NodeId(i)];
     }
     try {
-      CutComplex cut = corefine(divided.mesh, moved, {kMouthMerge});
+      CutComplex cut = corefine(divided.mesh, moved, {kMouthMerge, kMouthBend});
       const double piece = worst_piece(cut);
       if (piece > best_piece) {
         best = std::move(cut);

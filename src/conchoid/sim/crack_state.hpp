@@ -46,6 +46,8 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge,
 std::vector<FrontPoint> ligament_points(const CrackState& state);
 
 /// Share of an edge's length within which mouth nodes are merged for the boundary elements.
-inline constexpr double kMouthMerge = 0.02;
+inline constexpr double kMouthMerge = 0.1;
+/// The same across the crack: a node that left its plane would bend it, and open it in sliding.
+inline constexpr double kMouthBend = 0.02;
 
 }  // namespace conchoid
