@@ -253,6 +253,29 @@ TEST(Corefine, SheetThatEndsOnTheFaceOpensThere) {
   }
 }
 
+// A plane sheet stays plane where its nodes must not leave it, however near nodes of the surface lie.
+TEST(Corefine, MergingBendsTheSheetNoMoreThanItIsAllowed) {
+  const TriMesh body = cube(6);
+  double bent = 0;
+  for (const double offset : {0.004, 0.008, 0.012, 0.015})
+    for (const double tilt : {0.0, 0.01, 0.05}) {
+      const TriMesh plane = sheet(-0.71, 0.72, -0.73, 0.71, 9, 9,
+                                  [&](double u, double v) { return Vec3(u, v, offset + tilt * u); });
+      const Vec3 n = unit_normal(plane, TriId(0)), on = plane.positions[NodeId(0)];
+      const auto farthest = [&](const CutComplex& cut) {
+        double most = 0;
+        for (const Edge& e : cut.mouth)
+          for (const NodeId node : {e.a, e.b})
+            most = std::max(most, std::abs((cut.positions[node] - on).dot(n)));
+        return most;
+      };
+      bent = std::max(bent, farthest(corefine(body, plane, {.merge = 0.1})));
+      EXPECT_LE(farthest(corefine(body, plane, {.merge = 0.1, .across = 0.02})), 0.02 * 0.25)
+          << offset << " " << tilt;
+    }
+  EXPECT_GT(bent, 0.04 * 0.15);  // where they may, they do
+}
+
 TEST(Corefine, SheetsInsideAndOutside) {
   const TriMesh body = icosphere(2);
   const TriMesh crack = disc(Vec3(0.1, 0.2, 0), Vec3(1, 0, 0), Vec3(0, 0.6, 0.8), 0.5, 4);

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run.hpp"
 #include "scenes.hpp"
@@ -66,8 +70,17 @@ TEST(Versatile, ACubeOfAnotherSizeAndMaterialBreaksAsItsScaledCopy) {
 
 // Neither the size of the load nor K_c is looked at: it decides whether a front moves, not where to.
 TEST(Versatile, MoreLoadOnACrackThatRunsAnywayTakesTheSameWay) {
-  const RunResult one = predicted({}), more = predicted({.load = 1.25});
-  EXPECT_NEAR(more.document.crack_area, one.document.crack_area, 0.02 * one.document.crack_area);
+  RunResult shorter = predicted({}), longer = predicted({.load = 1.25});
+  if (shorter.document.frames > longer.document.frames) std::swap(shorter, longer);
+  // Steps are longer by some per cent under more load, which trees answer by steps of their own in the end, and the last
+  // ligament may break at once a frame earlier or later.
+  EXPECT_GE(shorter.document.frames, 3);
+  EXPECT_LE(longer.document.frames, shorter.document.frames + 1);
+  const ClosestPointTree surface(longer.crack);
+  for (const FrontRow& row : shorter.front)
+    if (row.frame <= 3) {
+      EXPECT_LT(std::sqrt(surface.closest(row.position).squared_distance), 0.01) << row.frame;
+    }
 }
 
 }  // namespace
