@@ -13,6 +13,7 @@ import json
 import os
 import pathlib
 import platform
+import shutil
 import subprocess
 import tempfile
 import time
@@ -45,17 +46,14 @@ COLUMNS = ("triangles", "set-up", "GB", "BEM frames", "a frame", "of it opening"
 
 
 def measured(command, folder):
-    """(seconds, peak memory [GB], standard output) of a process."""
+    """(seconds, peak memory [GB]) of a process."""
     start = time.perf_counter()
-    with open(folder / "out.json", "w+") as out:
-        process = subprocess.Popen(command, cwd=folder, stdout=out, stderr=subprocess.PIPE, text=True)
-        said = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        taken = time.perf_counter() - start
-        if status:
-            raise SystemExit(f"{' '.join(map(str, command))}: {said.strip()}")
-        out.seek(0)
-        return taken, usage.ru_maxrss / 1e6, out.read()
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    said = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        raise SystemExit(f"{' '.join(map(str, command))}: {said.strip()}")
+    return time.perf_counter() - start, usage.ru_maxrss / 1e6
 
 
 class Curves:
@@ -63,17 +61,15 @@ class Curves:
         self.conchoid, self.calibration = build / "conchoid", build / "calibrate"
         self.rounds, self.folder = rounds, folder
 
-    def least(self, *arguments):
-        command = [self.conchoid, *arguments, "--json", "--quiet", "--threads", "2"]
-        return min((measured(command, self.folder) for _ in range(self.rounds)), key=lambda m: m[0])
+    def run(self, *arguments):
+        return measured([self.conchoid, *arguments, "--quiet", "--threads", "2"], self.folder)
 
     def frames(self, method, *more):
         """(number of frames, seconds of a frame, of it its opening); of predicted runs without the first."""
         best = None
         for _ in range(self.rounds):
-            subprocess.run(["rm", "-rf", self.folder / "run"], check=True)
-            measured([self.conchoid, "run", "scene.toml", "--out", "run", "--method", method, *more, "--quiet", "--threads", "2", "--json"],
-                     self.folder)
+            shutil.rmtree(self.folder / "run", ignore_errors=True)
+            self.run("run", "scene.toml", "--out", "run", "--method", method, *more)
             timings = json.loads((self.folder / "run/run.json").read_text())["timings"]
             shown = timings[0 if method == "bem" else 1:]
             if not shown:
@@ -87,7 +83,7 @@ class Curves:
     def row(self, size):
         (self.folder / "scene.toml").write_text(SCENE.format(size=size))
         c = float(subprocess.run([self.calibration], capture_output=True, text=True, check=True).stdout.split()[0])
-        setup, memory, _ = self.least("stress", "scene.toml")
+        setup, memory = min(self.run("stress", "scene.toml") for _ in range(self.rounds))
         solved, predicted = self.frames("bem"), self.frames("forest", "--database", "versatile")
         return {"triangles": size, "c": c, "setup": setup / c, "memory": memory, "solved": [solved[0], solved[1] / c, solved[2] / c],
                 "predicted": [predicted[0], predicted[1] / c, predicted[2] / c]}

@@ -98,6 +98,7 @@ struct Hollow {
   Vec3 crack;  ///< middle of the first crack, a rectangle across the wall
   double width;
   double crack_edge;
+  double off = 0.3;  ///< × crack_edge, of the crack from its plane at most
 };
 
 void PrintTo(const Hollow& body, std::ostream* out) {
@@ -133,7 +134,7 @@ TEST_P(HollowBodies, PartInThePlaneOfTheirCrack) {
   const double mean = sum / surface_area(result.crack);
   RecordProperty("largest off", test::text(largest));
   RecordProperty("mean off", test::text(mean));
-  EXPECT_LT(largest, 0.3);
+  EXPECT_LT(largest, body.off);
   EXPECT_LT(mean, 0.1);
 }
 
@@ -148,12 +149,12 @@ Hollow turned_by(Hollow body, double angle) {
 std::vector<Hollow> hollow_bodies() {
   using namespace shapes;
   std::vector<Hollow> bodies{
-      {"Tube", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2},
-      {"ThinnerTube", tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16},
-      {"ThickTube", tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22},
-      {"TubeOfThreeRows", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.14},
-      {"Cavity", block_with_cavity(8, 1, 5), {4, 0, 0}, 1.5, 0.5},
-      {"Cup", cup(), {1, 0, 0.31}, 1, 0.2},
+      {"Tube", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.2, 0.25},
+      {"ThinnerTube", tube(1, 0.7, 4, 9), {1, 0, 0.03}, 1, 0.16, 0.2},
+      {"ThickTube", tube(1, 0.4, 4, 9), {1, 0, 0.05}, 1, 0.22, 0.2},
+      {"TubeOfThreeRows", tube(1, 0.6, 4, 9), {1, 0, 0.03}, 1, 0.14, 0.2},
+      {"Cavity", block_with_cavity(8, 1, 5), {4, 0, 0}, 1.5, 0.5, 0.15},
+      {"Cup", cup(), {1, 0, 0.31}, 1, 0.2, 0.2},
   };
   if (std::getenv("CONCHOID_ALL_SCENES") == nullptr) return bodies;
   for (const double z : {-0.11, 0.0, 0.17})
