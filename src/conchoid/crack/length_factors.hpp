@@ -23,7 +23,7 @@ inline constexpr double kFitFullWeight = 0.4;
 inline constexpr int kFitRows = 6;
 /// Of the weights, on A', A" and B: keeps them 0 where the samples cannot tell them; A" most, as K varies
 /// slowly along a front.
-inline constexpr std::array<double, 3> kFitRidge{1e-4, 1e-2, 1e-4};
+inline constexpr std::array<double, 3> kFitRidge{2e-3, 1e-2, 1e-4};
 /// Of the weights, on B of a Galerkin solution: on a crack of three rows it would follow the deviation of the
 /// elements, not the field.
 inline constexpr double kFitRidgeGalerkin = 1e-2;
@@ -32,8 +32,11 @@ inline constexpr double kFitRidgeGalerkin = 1e-2;
 inline constexpr double kFrontShift = 0.10;
 /// × exact opening: the first row of that solution, where the mesh is regular.
 inline constexpr double kFirstRowExcess = 1.022;
-/// Weight of the first row against the others: it scatters with the pattern of the mesh.
+/// Weight of the first row against the others, where it is to say how much opens: it scatters with the pattern of the
+/// mesh …
 inline constexpr double kFirstRowWeight = 0.02;
+/// × opening: … by less than this; what is farther off says nothing of the direction either.
+inline constexpr double kFirstRowScatter = 0.35;
 
 /// Change of K from node to node over its size: below it K is smooth, as on any front away from a ligament …
 inline constexpr double kResolvedChange = 0.75;

@@ -20,6 +20,7 @@
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/ligament_rule.hpp"
 #include "conchoid/sim/nearly_through.hpp"
+#include "conchoid/sim/path_turn.hpp"
 #include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
 
@@ -74,6 +75,7 @@ struct Fracture::State {
   double rayleigh_speed;
   std::vector<FractureObserver*> observers;
 
+  std::size_t given_nodes;  // of the cracks that the body had
   bool started = false;
   int before = 0;  // frames of bodies that this one is a piece of
   int frame = 0;   // these counted, too
@@ -97,7 +99,8 @@ struct Fracture::State {
         growth{law ? std::move(law) : hoop_stress_law(body->material, run), toughness_field(*body)},
         rayleigh_speed(conchoid::rayleigh_speed(
             m, body->material.density,
-            run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)) {
+            run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)),
+        given_nodes(crack.sheet.mesh.node_count()) {
     crack.cut = whole_surface(body->surface);
     if (std::abs(body->surface_edge / body->crack_edge / kDrivingSpacing - 1) > kSameSpacing)
       visible.emplace(crack.sheet,
@@ -252,6 +255,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   const double r = body->crack_edge;
   std::vector<FrontStep> steps;
   decisions.clear();
+  const PathSoFar path{history, *growth.law, crack.sheet, given_nodes};
   const std::vector<FrontResolution> resolved = resolve_points(crack, openings, growth.toughness, m);
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
@@ -268,7 +272,8 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
     report.largest_intensity = std::max(report.largest_intensity, d.drive);
     // Where the toughness varies every marker decides for itself.
     if (d.length > 0 || (!stays && d.drive > 0 && !body->toughness.homogeneous()))
-      steps.push_back({point.node, point.frame, d.angle, d.drive, resolved[i].limit(r)});
+      steps.push_back({point.node, point.frame, d.angle, d.drive, resolved[i].limit(r),
+                       ligament ? 0 : further_turn(path, point, d)});
     if (!o.in_range && !warned) {
       warned = true;
       report.warnings.push_back(

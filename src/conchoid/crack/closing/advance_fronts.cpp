@@ -29,7 +29,8 @@ std::vector<FrontMotion> expected_motions(const CrackSheet& sheet, const std::ve
     const double length = model.law->length(
         step.intensity, model.toughness(sheet.mesh.positions[step.node]).value, target_edge);
     if (length > 0)
-      expected.push_back({step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle)});
+      expected.push_back(
+          {step.node, length * direction_at(step.frame.e1, step.frame.e2, step.angle + 0.5 * step.turn)});
   }
   return expected;
 }

@@ -85,8 +85,6 @@ Marker marker_of(const StripNode& node, const MarkerCurve& old, const TriMesh& s
     case StripNode::Kind::inserted: {
       const double to = last.parameter < marker.parameter ? last.parameter + period : last.parameter;
       marker.parameter += node.s * (to - marker.parameter);
-      marker.direction = (1 - node.s) * marker.direction + node.s * last.direction;
-      marker.direction_before = (1 - node.s) * marker.direction_before + node.s * last.direction_before;
       marker.coarse = NodeId();
       marker.arrested = marker.arrested && last.arrested;
       break;
@@ -164,7 +162,6 @@ std::vector<FrontMotion> FineFront::advance(const CrackSheet& sheet, const std::
     if (driving) reattach_nodes(curve, steps.nodes(), sheet.mesh.positions);
     set_parameters(curve, steps.nodes());
     for (Marker& marker : curve.markers) {
-      marker.direction_before = marker.direction;
       marker.moved = false;
       if (driving && marker.at_own_face) marker.arrested = marker.at_own_face = false;
     }
@@ -195,8 +192,7 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
     const double begin = static_cast<double>(step) / count;
     SubStep part;
     part.per_frame = count;
-    if (settings_.turn_within > 0)
-      part.turned = std::min(1.0, (step / parts + 1) / (settings_.sub_steps * settings_.turn_within));
+    part.time = (step + 0.5) / count;
     std::vector<Vec3> from;
     for (const Marker& marker : curve.markers) {
       from.push_back(marker.position);

@@ -12,11 +12,9 @@
 namespace conchoid {
 
 struct FineFrontSettings {
-  double resolution = 0;  ///< r̄ [m]
-  double spacing = 0;     ///< h [m] of the markers; at most r̄/4 is used
-  double turn_within =
-      0.5;             ///< share of a frame over which a marker turns from its last direction to the new one
-  int sub_steps = 10;  ///< per frame, in which a marker turns; where h is finer each is made in parts
+  double resolution = 0;      ///< r̄ [m]
+  double spacing = 0;         ///< h [m] of the markers; at most r̄/4 is used
+  int sub_steps = 10;         ///< per frame, in which a marker turns; where h is finer each is made in parts
   bool smooth_angles = true;  ///< see FrontSteps::smooth_angles
 };
 
@@ -26,8 +24,7 @@ struct FineFrontSettings {
 /// finer. A frame of r̄/c_R is made in sub-steps; in each a marker moves by
 ///     GrowthLaw::length(K_eff, K_c(x), r̄) / sub-steps,
 /// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
-/// frame, in a direction that turns from its direction in the frame before to the interpolated θ. A marker
-/// that has not moved before kinks at once. Where the toughness varies, each sub-step turns from there
+/// frame, in a direction that turns from the interpolated θ on as the step says (FrontStep::turn). Where the toughness varies, each sub-step turns from there
 /// towards its fall (GrowthLaw::deflection), but not beyond the bottom of a valley; and a marker off the front
 /// smoothed over r̄ feels what the front's shape does to K, to first order for a wave of wavelength r̄ (Rice
 /// 1985): K_eff (1 + π · lag/r̄), and a fall of height/r̄ back to it. Else tough spots would be
@@ -110,7 +107,7 @@ class FineFront {
   /// What holds for all markers in a part of a frame.
   struct SubStep {
     int per_frame = 1;            ///< so many make a frame
-    double turned = 1;            ///< share of the way from the old direction to the new one
+    double time = 0;              ///< its middle, as a share of the frame
     std::vector<Toughness> here;  ///< per marker
     std::vector<Vec3> smooth;     ///< where it would be without detail; empty where nothing varies
   };

@@ -128,10 +128,9 @@ struct MarkerLinks {
     return out;
   }
 
-  /// The front turns at a marker at the end of a stretch: it has no direction and is free again.
+  /// A marker at the end of a stretch is free again.
   void restart(std::size_t i, NodeId coarse) {
     markers[i].coarse = coarse;
-    markers[i].direction.setZero();
     markers[i].arrested = markers[i].at_own_face = false;
   }
 
@@ -142,7 +141,7 @@ struct MarkerLinks {
       return;
     }
     for (std::size_t k = 1; k + 1 < between.size(); ++k) {
-      Marker& marker = markers.emplace_back();  // the front turns there: no direction yet
+      Marker& marker = markers.emplace_back();
       marker.node = between[k];
       marker.position = surface.positions[between[k]];
       links.emplace_back(from, markers.size() - 1);

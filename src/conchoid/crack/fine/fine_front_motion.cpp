@@ -26,13 +26,7 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
                 part.per_frame;
     if (!(length[i] > 0)) continue;
     frame[i] = steps.frame(marker.parameter);
-    angle[i] = steps.angle(marker.parameter);
-    if (part.turned < 1 && !marker.direction_before.isZero(0)) {
-      const double before =
-          std::atan2(marker.direction_before.dot(frame[i].e1), marker.direction_before.dot(frame[i].e2));
-      angle[i] = (1 - part.turned) * before + part.turned * angle[i];
-    }
-    marker.direction = direction_at(frame[i].e1, frame[i].e2, angle[i]);
+    angle[i] = steps.angle(marker.parameter, part.time);
     if (varied_)
       turn[i] = weaker_side({marker.position, length[i], frame[i], angle[i],
                              perturbed[i].intensity * steps.intensity(marker.parameter), perturbed[i].height},
@@ -42,9 +36,7 @@ bool FineFront::move_markers(MarkerCurve& curve, const FrontSteps& steps, const 
   if (varied_) smooth_along(curve, moves, turn);
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (moves[i])
-      curve.markers[i].position +=
-          length[i] * (turn[i] == 0 ? curve.markers[i].direction
-                                    : direction_at(frame[i].e1, frame[i].e2, angle[i] + turn[i]));
+      curve.markers[i].position += length[i] * direction_at(frame[i].e1, frame[i].e2, angle[i] + turn[i]);
   return std::find(moves.begin(), moves.end(), true) != moves.end();
 }
 

@@ -24,11 +24,13 @@ std::vector<FrontStep> with_drawn_nodes(const CrackSheet& sheet, const std::vect
         const auto at = given.find(front.nodes[k]);
         if (k == i || at == given.end() || !(at->second.intensity > 0)) continue;
         drawn.angle += at->second.angle;
+        drawn.turn += at->second.turn;
         drawn.intensity += at->second.intensity;
         ++count;
       }
       if (count == 0) continue;
       drawn.angle /= count;
+      drawn.turn /= count;
       drawn.intensity /= count;
       all.push_back(drawn);
     }
@@ -58,8 +60,10 @@ void FrontSteps::smooth_angles() {
     const std::size_t aa = previous_index(a, n, closed_), bb = next_index(b, n, closed_);
     if (a == i || b == i || aa == a || bb == b) continue;
     if (!moving(aa) || !moving(a) || !moving(i) || !moving(b) || !moving(bb)) continue;
-    const double near = old[a].angle + old[b].angle, far = old[aa].angle + old[bb].angle;
-    steps_[i].angle = (10 * old[i].angle + 4 * near - far) / 16;
+    for (double FrontStep::*of : {&FrontStep::angle, &FrontStep::turn}) {
+      const double near = old[a].*of + old[b].*of, far = old[aa].*of + old[bb].*of;
+      steps_[i].*of = (10 * old[i].*of + 4 * near - far) / 16;
+    }
   }
 }
 
@@ -77,11 +81,12 @@ FrontFrame FrontSteps::frame(double parameter) const {
   return interpolate(steps_[a].frame, steps_[b].frame, s);
 }
 
-double FrontSteps::angle(double parameter) const {
+double FrontSteps::angle(double parameter, double time) const {
   const auto [a, b, s] = place(parameter);
-  if (!moves(a)) return steps_[b].angle;
-  if (!moves(b)) return steps_[a].angle;
-  return (1 - s) * steps_[a].angle + s * steps_[b].angle;
+  const auto of = [&](std::size_t k) { return steps_[k].angle + time * steps_[k].turn; };
+  if (!moves(a)) return of(b);
+  if (!moves(b)) return of(a);
+  return (1 - s) * of(a) + s * of(b);
 }
 
 double FrontSteps::intensity(double parameter) const {

@@ -17,6 +17,8 @@ struct FrontStep {
   double intensity =
       0;  ///< K_eff [Pa·√m], GrowthLaw::drive(); against the toughness it gives the length; 0: stays
   double limit = std::numeric_limits<double>::infinity();  ///< length it moves at most [m]
+  double turn =
+      0;  ///< by which the path goes on turning while it is made: from θ at its beginning to θ + turn [rad]
 };
 
 /// Steps for all nodes that move: those given, and for nodes outside of the body next to one of them the mean
@@ -32,8 +34,8 @@ class FrontSteps {
   FrontSteps(const CrackSheet& sheet, const SheetFront& front, const IdVector<NodeId, Vec3>& normals,
              const std::unordered_map<NodeId, FrontStep>& given);
 
-  /// Takes node-to-node noise out of θ: (−1, 4, 10, 4, −1)/16 where five nodes in a row move; exact for
-  /// cubics.
+  /// Takes node-to-node noise out of θ and the turn: (−1, 4, 10, 4, −1)/16 where five nodes in a row move; exact
+  /// for cubics.
   void smooth_angles();
 
   std::size_t size() const { return nodes_.size(); }
@@ -41,9 +43,10 @@ class FrontSteps {
   const std::vector<NodeId>& nodes() const { return nodes_; }
   bool moves(std::size_t k) const { return steps_[k].intensity > 0; }
 
-  /// Frame interpolated; θ interpolated between two nodes that move, else the one's that does.
+  /// Frame interpolated; direction interpolated between two nodes that move, else the one's that does.
+  /// @param time  share of the step that has been made
   FrontFrame frame(double parameter) const;
-  double angle(double parameter) const;
+  double angle(double parameter, double time) const;
   /// K_eff interpolated likewise [Pa·√m].
   double intensity(double parameter) const;
   /// GrowthLaw::length() of both nodes, interpolated [m].

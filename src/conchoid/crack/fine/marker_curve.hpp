@@ -10,15 +10,12 @@ namespace conchoid {
 struct Marker {
   NodeId node;  ///< last node it left in the fine sheet
   Vec3 position = Vec3::Zero();
-  Vec3 direction = Vec3::Zero();  ///< of its last sub-step, before it turned towards weaker material; zero
-                                  ///< before it has moved
-  Vec3 direction_before = Vec3::Zero();  ///< of the last sub-step of the frame before
-  bool moved = false;                    ///< in this frame
-  NodeId coarse;                         ///< the coarse front node attached to it; else invalid
-  bool arrested = false;                 ///< it has run into the face of a crack …
-  bool at_own_face = false;              ///< … its own
-  double parameter = 0;  ///< k + s: fraction s of the way from coarse node k of its front to the next
-  double offset = 0;     ///< of one with a node attached: how far it stands beyond that, in parameters
+  bool moved = false;        ///< in this frame
+  NodeId coarse;             ///< the coarse front node attached to it; else invalid
+  bool arrested = false;     ///< it has run into the face of a crack …
+  bool at_own_face = false;  ///< … its own
+  double parameter = 0;      ///< k + s: fraction s of the way from coarse node k of its front to the next
+  double offset = 0;         ///< of one with a node attached: how far it stands beyond that, in parameters
 };
 
 /// The markers along one coarse front, in the order of its nodes.

@@ -118,6 +118,61 @@ void remove_element_bias(std::vector<OpeningSample>& samples) {
     sample.rate /= sample.row == 1 ? kFirstRowExcess : std::sqrt(std::max(0.5, 1 - shift / sample.r));
 }
 
+/// A, A', A", B by least squares.
+using Fit = Eigen::Matrix<double, 4, 3>;
+
+Eigen::Vector4d terms(const OpeningSample& sample) {
+  return {1, sample.s, sample.s * sample.s, sample.r};
+}
+
+Fit fitted(const std::vector<OpeningSample>& samples, const std::vector<double>& weight_of,
+           bool galerkin_openings) {
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Fit right = Fit::Zero();
+  double total = 0;
+  for (const double w : weight_of)
+    total += w;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Eigen::Vector4d row = terms(samples[k]);
+    const double w = weight_of[k] / total;
+    normal += w * row * row.transpose();
+    right += w * row * samples[k].rate.transpose();
+  }
+  for (int k = 1; k < 4; ++k)
+    normal(k, k) += kFitRidge[k - 1];
+  if (galerkin_openings) normal(3, 3) += kFitRidgeGalerkin;
+  return normal.ldlt().solve(right);
+}
+
+/// Share of the rows beyond the first between which and the front the sheet is smooth.
+double smooth_share(const std::vector<OpeningSample>& samples) {
+  double all = 0, smooth = 0;
+  for (const OpeningSample& sample : samples) {
+    if (sample.row == 1) continue;
+    const double w = weight(sample, true);
+    all += w;
+    smooth += w * share_behind_turn(0.5 * std::max(sample.turn, std::abs(sample.kink)));
+  }
+  return all > 0 ? smooth / all : 0;
+}
+
+/// The first row scatters in how much it opens, not in which direction: with its excess along the fit taken out it
+/// counts like the others, and tells turns of K that these are too far behind to have seen. Near a kink it does not,
+/// as it opens in another direction than the front, nor at a mouth, the least flat part of the crack.
+std::vector<OpeningSample> directed(std::vector<OpeningSample> samples, const Fit& fit,
+                                    std::vector<double>& weight_of) {
+  const double more = 1 + (1 / kFirstRowWeight - 1) * smooth_share(samples);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (samples[k].row != 1 || samples[k].mouth) continue;
+    const Vec3 expected = fit.transpose() * terms(samples[k]);
+    const double excess = samples[k].rate.dot(expected) / expected.squaredNorm();
+    if (!(std::abs(excess - 1) < kFirstRowScatter)) continue;
+    samples[k].rate /= excess;
+    weight_of[k] *= more;
+  }
+  return samples;
+}
+
 }  // namespace
 
 NodeLinks::NodeLinks(const TriMesh& mesh) : first_(mesh.node_count() + 1, 0) {
@@ -139,8 +194,7 @@ NodeLinks::NodeLinks(const TriMesh& mesh) : first_(mesh.node_count() + 1, 0) {
     first_[i] += first_[i - 1];
 }
 
-std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
-                              const IdVector<NodeId, Vec3>& opening) {
+std::vector<bool> boundary_marks(const TriMesh& crack) {
   std::vector<bool> marks(crack.node_count(), false);
   const auto neighbours = triangle_neighbours(crack);
   for (std::size_t t = 0; t < crack.triangle_count(); ++t)
@@ -148,8 +202,16 @@ std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
       if (neighbours[TriId(t)][k].valid()) continue;
       const auto& c = crack.corners[TriId(t)];
       for (NodeId node : {c[k], c[(k + 1) % 3]})
-        if (opening[node].isZero(0)) marks[node.index()] = true;
+        marks[node.index()] = true;
     }
+  return marks;
+}
+
+std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
+                              const IdVector<NodeId, Vec3>& opening) {
+  std::vector<bool> marks = boundary_marks(crack);
+  for (std::size_t n = 0; n < marks.size(); ++n)
+    marks[n] = marks[n] && opening[NodeId(n)].isZero(0);
   for (NodeId node : front.nodes)
     marks[node.index()] = true;
   return marks;
@@ -172,14 +234,14 @@ std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const
   return rows;
 }
 
-std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
-                                          std::size_t i, const std::vector<int>& rows,
-                                          const std::vector<KinkBehind>& kinks,
-                                          const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
+std::vector<OpeningSample> gather_samples(const TriMesh& crack, const Front& front, std::size_t i,
+                                          const SheetBehind& behind, const IdVector<NodeId, Vec3>& opening,
+                                          bool galerkin_openings) {
   const double h = mean_edge_length(crack, front, i);
   std::vector<OpeningSample> samples;
   if (!(h > 0)) return samples;
-  for (NodeId node : nodes_behind(crack, links, front, i, rows, (kFitReachBehind + kFitReachAlong) * h)) {
+  for (NodeId node :
+       nodes_behind(crack, behind.links, front, i, behind.rows, (kFitReachBehind + kFitReachAlong) * h)) {
     const FrontFoot foot = closest_foot(crack, front, crack.positions[node], edges_around(i, 2));
     if (foot.clipped) continue;
     OpeningSample sample;
@@ -187,9 +249,10 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
     sample.s = along_front(crack, front, i, foot) / h;
     if (!(sample.r > 1e-3) || sample.r > kFitReachBehind || std::abs(sample.s) >= kFitReachAlong) continue;
     const FrontFrame frame = frame_at(front, foot);
-    sample.row = rows[node.index()];
+    sample.row = behind.rows[node.index()];
+    sample.mouth = behind.mouth[node.index()];
     const Vec3 du = opening[node] / std::sqrt(foot.distance);
-    const KinkBehind& kink = kinks[node.index()];
+    const KinkBehind& kink = behind.kinks[node.index()];
     const double height = frame.e1.dot(crack.positions[node] - point_at(crack, front, foot));
     sample.turn = kink.turn;
     sample.kink = kink.kink;
@@ -203,25 +266,14 @@ std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks&
 
 bool fit_rate(const std::vector<OpeningSample>& samples, bool galerkin_openings, Vec3& rate) {
   if (samples.empty()) return false;
-  using Normal = Eigen::Matrix4d;
-  Normal normal = Normal::Zero();
-  Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
-  const std::vector<double> weight_of = weights(samples, galerkin_openings);
+  std::vector<double> weight_of = weights(samples, galerkin_openings);
   double total = 0;
   for (const double w : weight_of)
     total += w;
   if (!(total > 0)) return false;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const OpeningSample& sample = samples[k];
-    const Eigen::Vector4d row(1, sample.s, sample.s * sample.s, sample.r);
-    const double w = weight_of[k] / total;
-    normal += w * row * row.transpose();
-    right += w * row * sample.rate.transpose();
-  }
-  for (int k = 1; k < 4; ++k)
-    normal(k, k) += kFitRidge[k - 1];
-  if (galerkin_openings) normal(3, 3) += kFitRidgeGalerkin;
-  rate = normal.ldlt().solve(right).row(0).transpose();
+  const Fit fit = fitted(samples, weight_of, galerkin_openings);
+  rate = fit.row(0).transpose();
+  if (galerkin_openings) rate = fitted(directed(samples, fit, weight_of), weight_of, true).row(0).transpose();
   return rate.allFinite();
 }
 

@@ -18,6 +18,9 @@ class NodeLinks {
   std::vector<NodeId> targets_;
 };
 
+/// True for nodes of boundary edges.
+std::vector<bool> boundary_marks(const TriMesh& crack);
+
 /// True for nodes that no √r law behind `front` applies to: its own nodes, and nodes of other fronts
 /// (boundary nodes that do not open).
 std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
@@ -31,6 +34,7 @@ std::vector<int> rows_behind(const TriMesh& crack, const NodeLinks& links, const
 /// One opening sample behind a front node; lengths divided by the local front edge length h.
 struct OpeningSample {
   int row = 1;               ///< row of nodes it belongs to
+  bool mouth = false;        ///< of a node at the mouth of the crack
   double r = 0;              ///< distance from the front / h
   double s = 0;              ///< position of the foot along the front / h, 0 at the front node
   double turn = 0;           ///< of the sheet between front and node [rad]; see KinkBehind
@@ -40,12 +44,19 @@ struct OpeningSample {
 
 struct KinkBehind;
 
+/// What lies behind a front; per node of the crack.
+struct SheetBehind {
+  NodeLinks links;
+  std::vector<int> rows;          ///< rows_behind()
+  std::vector<KinkBehind> kinks;  ///< kinks_behind()
+  std::vector<bool> mouth;        ///< on an edge of the crack that is no front
+};
+
 /// Samples around node i of the front, nearest rows first found through the mesh: |s| ≤ 1.6 h, r ≤ 3.6 h. Those
 /// at a kink of the sheet as a straight crack has them.
-std::vector<OpeningSample> gather_samples(const TriMesh& crack, const NodeLinks& links, const Front& front,
-                                          std::size_t i, const std::vector<int>& rows,
-                                          const std::vector<KinkBehind>& kinks,
-                                          const IdVector<NodeId, Vec3>& opening, bool galerkin_openings);
+std::vector<OpeningSample> gather_samples(const TriMesh& crack, const Front& front, std::size_t i,
+                                          const SheetBehind& behind, const IdVector<NodeId, Vec3>& opening,
+                                          bool galerkin_openings);
 
 /// Fits rate(r, s) = A + A' s + A" s² + B r by weighted least squares and returns A in `rate`; false without
 /// a sample. Samples behind a kink are left out, unless hardly any other is there.

@@ -90,15 +90,15 @@ std::vector<Vec3> one_point_rates(const TriMesh& crack, const Front& front,
 std::vector<Vec3> fitted_rates(const TriMesh& crack, const Front& front,
                                const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
   const std::size_t n = front.nodes.size();
-  const NodeLinks links(crack);
-  const std::vector<int> rows = rows_behind(crack, links, front, front_marks(crack, front, opening));
-  const std::vector<KinkBehind> kinks = kinks_behind(crack, links, front, rows);
+  SheetBehind behind{NodeLinks(crack), {}, {}, boundary_marks(crack)};
+  behind.rows = rows_behind(crack, behind.links, front, front_marks(crack, front, opening));
+  behind.kinks = kinks_behind(crack, behind.links, front, behind.rows);
   std::vector<Vec3> rates(n, Vec3::Zero());
   std::vector<bool> known(n, false);
   for (std::size_t i = 0; i < n; ++i) {
     const bool end = !front.closed && n > 2 && (i == 0 || i + 1 == n);
     if (end) continue;
-    known[i] = fit_rate(gather_samples(crack, links, front, i, rows, kinks, opening, galerkin_openings),
+    known[i] = fit_rate(gather_samples(crack, front, i, behind, opening, galerkin_openings),
                         galerkin_openings, rates[i]);
   }
   return fill_from_nearest(rates, known, front.closed);
