@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "conchoid/intersect/manifold_part.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "intersect/cut_shapes.hpp"
 
 namespace conchoid {
@@ -45,6 +48,30 @@ TEST(Unfold, SmoothSheetsKeepEveryBit) {
   const TriMesh wavy =
       sheet(-1, 1, -1, 1, 12, 12, [](double u, double v) { return Vec3(u, v, 0.2 * std::sin(5 * u + v)); });
   EXPECT_EQ(unfolded(wavy).positions, wavy.positions);
+}
+
+// A loop a few triangles long: it passes through itself, though it turns too little at each node for one to be folded.
+TEST(Unfold, SmallCrossingsAreSmoothedNotCutOut) {
+  const TriMesh flat = sheet(-1, 1, -1, 1, 12, 12, [](double u, double v) { return Vec3(u, v, 0); });
+  int crossed = 0;
+  for (const double wide : {0.25, 0.3, 0.4, 0.5})
+    for (const double high : {0.2, 0.3, 0.4}) {
+      TriMesh looped = flat;
+      for (Vec3& x : looped.positions)
+        if (std::abs(x.x()) < 0.51) {
+          const double phase = std::numbers::pi * x.x() / 0.5, tapered = std::exp(-std::pow(x.y() / 0.3, 4));
+          x += tapered * Vec3(-wide * std::sin(phase), 0, high * (1 + std::cos(phase)));
+        }
+      crossed += embedded_part(unfolded(looped)).triangle_count() < flat.triangle_count() ? 1 : 0;
+      const TriMesh part = unfolded_part(looped);
+      EXPECT_EQ(part.triangle_count(), flat.triangle_count()) << wide << ' ' << high;
+      EXPECT_TRUE(self_intersections(part, 1).empty());
+      for (std::size_t n = 0; n < flat.node_count(); ++n)
+        if (std::abs(looped.positions[NodeId(n)].y()) > 0.99) {
+          EXPECT_EQ(part.positions[NodeId(n)], looped.positions[NodeId(n)]);
+        }
+    }
+  EXPECT_GT(crossed, 2);
 }
 
 TEST(Unfold, AFoldedNodeGoesBackBetweenItsNeighbours) {

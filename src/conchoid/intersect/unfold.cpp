@@ -6,6 +6,7 @@
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
+#include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
@@ -33,6 +34,9 @@ struct Stars {
 constexpr double steepest = 0.25;  // cosine
 constexpr int kRounds = 40;
 constexpr int kRoundsPerRing = 8;
+constexpr int kCrossingRounds = 6;
+constexpr int kFoldEdges = 4;                // across a fold whose nodes need not be folded themselves
+constexpr std::size_t kMostCrossings = 200;  // more is no small fold
 
 bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
   if (star.size() < 2) return false;
@@ -46,6 +50,53 @@ bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
   for (const Vec3& n : normals)
     mean += n;
   return hides_some(mean.normalized()) && hides_some(common_direction(normals));
+}
+
+void add_neighbours(std::vector<NodeId>& nodes, const Stars& stars) {
+  const std::vector<NodeId> inner = nodes;
+  for (const NodeId n : inner)
+    nodes.insert(nodes.end(), stars.neighbours[n].begin(), stars.neighbours[n].end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+/// All at once, each to the middle of its neighbours.
+void to_the_middle(TriMesh& sheet, const std::vector<NodeId>& nodes, const Stars& stars) {
+  std::vector<Vec3> middle(nodes.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (const NodeId m : stars.neighbours[nodes[k]])
+      middle[k] += sheet.positions[m] / static_cast<double>(stars.neighbours[nodes[k]].size());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    if (!stars.neighbours[nodes[k]].empty()) sheet.positions[nodes[k]] = middle[k];
+}
+
+/// Whether so few edges lead from one to the other as across a small fold.
+bool are_near(const TriMesh& sheet, TriId a, TriId b, const Stars& stars) {
+  std::vector<NodeId> around(sheet.corners[a].begin(), sheet.corners[a].end());
+  std::sort(around.begin(), around.end());
+  for (int edges = 0; edges < kFoldEdges; ++edges)
+    add_neighbours(around, stars);
+  return std::any_of(sheet.corners[b].begin(), sheet.corners[b].end(),
+                     [&](NodeId n) { return std::binary_search(around.begin(), around.end(), n); });
+}
+
+/// The sheet with small crossings smoothed out: nodes of triangles that pass through others a few edges away
+/// go to the middle of their neighbours, with more of these in every round. A sheet that has run into itself
+/// stays.
+TriMesh drawn_apart(TriMesh sheet) {
+  const Stars stars(sheet);
+  for (int round = 0; round < kCrossingRounds; ++round) {
+    std::vector<NodeId> crossed;
+    for (const auto& [a, b] : self_intersections(sheet, kMostCrossings))
+      if (are_near(sheet, a, b, stars))
+        for (const TriId t : {a, b})
+          crossed.insert(crossed.end(), sheet.corners[t].begin(), sheet.corners[t].end());
+    if (crossed.empty()) break;
+    for (int ring = 0; ring <= round; ++ring)
+      add_neighbours(crossed, stars);
+    to_the_middle(sheet, crossed, stars);
+  }
+  return sheet;
 }
 
 }  // namespace
@@ -97,26 +148,21 @@ TriMesh unfolded(TriMesh sheet) {
       if (is[i] != 0) folded.emplace_back(i);
     if (folded.empty()) break;
     // What stays folded in the middle of its neighbours needs them to move as well.
-    for (int ring = 0; ring < round / kRoundsPerRing; ++ring) {
-      const std::vector<NodeId> inner = folded;
-      for (const NodeId n : inner)
-        folded.insert(folded.end(), stars.neighbours[n].begin(), stars.neighbours[n].end());
-      std::sort(folded.begin(), folded.end());
-      folded.erase(std::unique(folded.begin(), folded.end()), folded.end());
-    }
-    std::vector<Vec3> middle(folded.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < folded.size(); ++k)
-      for (const NodeId m : stars.neighbours[folded[k]])
-        middle[k] += sheet.positions[m] / static_cast<double>(stars.neighbours[folded[k]].size());
-    for (std::size_t k = 0; k < folded.size(); ++k)
-      sheet.positions[folded[k]] = middle[k];
+    for (int ring = 0; ring < round / kRoundsPerRing; ++ring)
+      add_neighbours(folded, stars);
+    to_the_middle(sheet, folded, stars);
   }
   return sheet;
 }
 
 TriMesh unfolded_part(const TriMesh& sheet) {
-  // Small folds first: cut out they would be holes.
-  const TriMesh embedded = embedded_part(unfolded(manifold_part(sheet)));
+  // Small folds and crossings first: cut out they would be holes, by which a body hangs together.
+  const TriMesh flat = unfolded(manifold_part(sheet));
+  TriMesh embedded = embedded_part(flat);
+  if (embedded.triangle_count() < flat.triangle_count()) {
+    TriMesh apart = embedded_part(drawn_apart(flat));
+    if (apart.triangle_count() > embedded.triangle_count()) embedded = std::move(apart);
+  }
   TriMesh smoother = unfolded(embedded);
   return smoother.positions == embedded.positions ? embedded : embedded_part(smoother);
 }

@@ -17,7 +17,9 @@ Vec3 common_direction(const std::vector<Vec3>& vectors);
 /// All other nodes stay bit for bit.
 TriMesh unfolded(TriMesh sheet);
 
-/// The embedded part (manifold_part.hpp) of a sheet without sharp folds: fit to cut a body.
+/// The embedded part (manifold_part.hpp) of a sheet without sharp folds: fit to cut a body. Where it passes through
+/// itself within a few triangles these are smoothed out first, rather than left out: through a hole, however small,
+/// the body would hang together.
 TriMesh unfolded_part(const TriMesh& sheet);
 
 }  // namespace conchoid
