@@ -242,6 +242,18 @@ TEST(StressIntensities, MirroredCracksHaveMirroredIntensities) {
 
 namespace {
 
+/// Mouth of a rectangle of n × 13 nodes whose front is its last column.
+std::vector<Edge> all_but_the_end(int n) {
+  std::vector<Edge> mouth;
+  for (int i = 0; i + 1 < n; ++i)
+    mouth.insert(mouth.end(),
+                 {Edge(NodeId(i), NodeId(i + 1)), Edge(NodeId(12 * n + i), NodeId(12 * n + i + 1))});
+  for (int j = 0; j < 12; ++j)
+    mouth.emplace_back(NodeId(j * n), NodeId((j + 1) * n));
+  std::sort(mouth.begin(), mouth.end());
+  return mouth;
+}
+
 /// A sheet of 12 × `arm` + 6 rows of unit cells, its last `arm` rows turned by the angle from e2 towards e1; K
 /// in front of the kink, at it what a kink makes of K, behind it openings of no meaning.
 std::vector<Vec3> intensities_of_kinked_sheet(int arm, double angle, const Vec3& K, double behind) {
@@ -260,15 +272,7 @@ std::vector<Vec3> intensities_of_kinked_sheet(int arm, double angle, const Vec3&
     const Vec3 inside = std::sqrt(r) * (rate[0] * e1 + rate[1] * e2);
     opening.push_back(beyond < 0 ? Vec3(behind * inside) : inside);
   }
-  std::vector<Edge> mouth;  // all but the turned end
-  const int n = 7 + arm;
-  for (int i = 0; i + 1 < n; ++i)
-    mouth.insert(mouth.end(),
-                 {Edge(NodeId(i), NodeId(i + 1)), Edge(NodeId(12 * n + i), NodeId(12 * n + i + 1))});
-  for (int j = 0; j < 12; ++j)
-    mouth.emplace_back(NodeId(j * n), NodeId((j + 1) * n));
-  std::sort(mouth.begin(), mouth.end());
-  const auto fronts = find_fronts(mesh, mouth);
+  const auto fronts = find_fronts(mesh, all_but_the_end(7 + arm));
   EXPECT_EQ(fronts.size(), 1u);
   return stress_intensities(mesh, fronts[0], opening, kGlass, exact());
 }
@@ -306,14 +310,7 @@ TEST(StressIntensities, TheFirstRowSaysInWhichDirectionButNotHowMuch) {
     const double seen = r < 0.5 ? 0 : r < 1.5 ? kFirstRowExcess * 1.05 : std::sqrt(r - kFrontShift);
     opening.push_back(seen * mode_I[0] * Vec3(0.02 * r * r, 0, 1));
   }
-  std::vector<Edge> mouth;  // all but the end
-  for (int i = 0; i + 1 < n; ++i)
-    mouth.insert(mouth.end(),
-                 {Edge(NodeId(i), NodeId(i + 1)), Edge(NodeId(12 * n + i), NodeId(12 * n + i + 1))});
-  for (int j = 0; j < 12; ++j)
-    mouth.emplace_back(NodeId(j * n), NodeId((j + 1) * n));
-  std::sort(mouth.begin(), mouth.end());
-  const auto fronts = find_fronts(mesh, mouth);
+  const auto fronts = find_fronts(mesh, all_but_the_end(n));
   ASSERT_EQ(fronts.size(), 1u);
   const auto K = stress_intensities(mesh, fronts[0], opening, kGlass, SifSettings());
   for (std::size_t i = 3; i + 3 < K.size(); ++i) {
