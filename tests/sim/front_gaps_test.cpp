@@ -8,6 +8,7 @@
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/models.hpp"
+#include "sim/glassy.hpp"
 
 // Points of a front without a K of their own take it from their neighbours on the same connected front.
 namespace conchoid {
@@ -25,14 +26,6 @@ CrackState crack_in_cube(const std::vector<TriMesh>& sheets) {
 
 TriMesh disc(const Vec3& center, double radius) {
   return disc_crack(center, Vec3::UnitZ(), radius, {.edge = kEdge});
-}
-
-MaterialSpec glassy() {
-  MaterialSpec material;
-  material.youngs_modulus = 3e9;
-  material.poisson_ratio = 0.3;
-  material.toughness = 1e6;
-  return material;
 }
 
 std::vector<FrontOpening> unknown(std::size_t n) {
@@ -147,7 +140,7 @@ TEST(FrontGaps, AFrontThatLeavesTheBodyIsSeveral) {
 // Two corners were solved in the frame before, with different K; of the others nothing is known.
 TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
   const CrackState crack = crack_with_four_corners();
-  const MaterialSpec material = glassy();
+  const MaterialSpec material = test::glassy();
   FrontHistory history(material, {}, kEdge);
   auto before = unknown(crack.points.size());
   std::array<bool, 4> told{};
@@ -171,7 +164,7 @@ TEST(FrontGaps, WhatOneCornerKnowsIsNotCarriedToAnother) {
 // Where the published treatment of compression drives a front, it also drives one that is carried.
 TEST(CarriedOpenings, KeepTheDriveThatMovedThem) {
   const CrackState crack = crack_with_four_corners();
-  const MaterialSpec material = glassy();
+  const MaterialSpec material = test::glassy();
   FrontHistory history(material, {}, kEdge);
   std::vector<FrontOpening> pressed(crack.points.size());
   for (FrontOpening& o : pressed)

@@ -12,25 +12,18 @@
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/sim/opening_source.hpp"
+#include "sim/glassy.hpp"
 
 // A disc in an unbounded body whose K asks for a path of known curvature: it grows into a bowl.
 namespace conchoid {
 namespace {
 
 constexpr double kRadius = 1, kWay = 0.8;
-const HoopStressLaw kHoop(ElasticConstants{.youngs_modulus = 3e9, .poisson_ratio = 0.3}, std::nullopt);
-
-MaterialSpec material() {
-  MaterialSpec m;
-  m.youngs_modulus = 3e9;
-  m.poisson_ratio = 0.3;
-  m.toughness = 1e6;
-  return m;
-}
+const HoopStressLaw kHoop(test::glassy().elastic(), std::nullopt);
 
 /// K of the hoop stress law's direction θ, far above K_c.
 Vec3 asking_for(double angle) {
-  const double K = 1e3 * material().toughness;
+  const double K = 1e3 * test::glassy().toughness;
   return {K, -K * std::sin(angle) / (3 * std::cos(angle) - 1), 0};
 }
 
@@ -44,7 +37,7 @@ struct Bowl {
   Bowl(double r, bool started)
       : crack{sheet_of(disc_crack(Vec3::Zero(), Vec3::UnitZ(), kRadius, {.edge = r})), {}, {}, {}, {}, {}},
         fine(crack.sheet, {.resolution = r, .spacing = r / 10}),
-        history(material(), MaterialField(), r),
+        history(test::glassy(), MaterialField(), r),
         edge(r),
         given(started ? 0 : crack.sheet.mesh.node_count()) {}
 
@@ -76,7 +69,7 @@ struct Bowl {
                        foresees ? turn : 0});
     }
     history.remember(crack, openings);
-    const Toughness K_c{material().toughness, Vec3::Zero()};
+    const Toughness K_c{test::glassy().toughness, Vec3::Zero()};
     advance_fronts(crack.sheet, fine, steps,
                    {std::make_shared<HoopStressLaw>(kHoop), [=](const Vec3&) { return K_c; }}, edge);
   }

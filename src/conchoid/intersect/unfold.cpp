@@ -36,7 +36,7 @@ constexpr int kRounds = 40;
 constexpr int kRoundsPerRing = 8;
 constexpr int kCrossingRounds = 6;
 constexpr int kFoldEdges = 4;                // across a fold whose nodes need not be folded themselves
-constexpr std::size_t kMostCrossings = 200;  // more is no small fold
+constexpr std::size_t kMostCrossings = 200;  // looked at in a round
 
 bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
   if (star.size() < 2) return false;

@@ -24,8 +24,8 @@ struct FineFrontSettings {
 /// finer. A frame of r̄/c_R is made in sub-steps; in each a marker moves by
 ///     GrowthLaw::length(K_eff, K_c(x), r̄) / sub-steps,
 /// evaluated with the K_eff of the two coarse nodes it lies between and interpolated, in the interpolated
-/// frame, in a direction that turns from the interpolated θ on as the step says (FrontStep::turn). Where the toughness varies, each sub-step turns from there
-/// towards its fall (GrowthLaw::deflection), but not beyond the bottom of a valley; and a marker off the front
+/// frame, in a direction that turns from the interpolated θ on as the step says (FrontStep::turn). Where the
+/// toughness varies, each sub-step turns from there towards its fall (GrowthLaw::deflection), but not beyond the bottom of a valley; and a marker off the front
 /// smoothed over r̄ feels what the front's shape does to K, to first order for a wave of wavelength r̄ (Rice
 /// 1985): K_eff (1 + π · lag/r̄), and a fall of height/r̄ back to it. Else tough spots would be
 /// left behind for good, and neighbours part without end. A marker leaves a row of triangles behind whenever

@@ -207,9 +207,9 @@ std::vector<bool> boundary_marks(const TriMesh& crack) {
   return marks;
 }
 
-std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
+std::vector<bool> front_marks(const std::vector<bool>& boundary, const Front& front,
                               const IdVector<NodeId, Vec3>& opening) {
-  std::vector<bool> marks = boundary_marks(crack);
+  std::vector<bool> marks = boundary;
   for (std::size_t n = 0; n < marks.size(); ++n)
     marks[n] = marks[n] && opening[NodeId(n)].isZero(0);
   for (NodeId node : front.nodes)

@@ -23,7 +23,8 @@ std::vector<bool> boundary_marks(const TriMesh& crack);
 
 /// True for nodes that no √r law behind `front` applies to: its own nodes, and nodes of other fronts
 /// (boundary nodes that do not open).
-std::vector<bool> front_marks(const TriMesh& crack, const Front& front,
+/// @param boundary  boundary_marks()
+std::vector<bool> front_marks(const std::vector<bool>& boundary, const Front& front,
                               const IdVector<NodeId, Vec3>& opening);
 
 /// Row of each node behind the front: 1 for a node joined to a node of the front by an edge, 2 for the next

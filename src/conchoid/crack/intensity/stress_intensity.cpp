@@ -64,7 +64,7 @@ std::vector<Vec3> one_point_rates(const TriMesh& crack, const Front& front,
                                   const IdVector<NodeId, Vec3>& opening) {
   const std::size_t n = front.nodes.size();
   const std::vector<NodeId> across = nodes_across_front_edges(crack, front);
-  const std::vector<bool> on_front = front_marks(crack, front, opening);
+  const std::vector<bool> on_front = front_marks(boundary_marks(crack), front, opening);
   std::vector<Vec3> sum(n, Vec3::Zero());
   std::vector<int> count(n, 0);
   for (std::size_t i = 0; i < across.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<Vec3> fitted_rates(const TriMesh& crack, const Front& front,
                                const IdVector<NodeId, Vec3>& opening, bool galerkin_openings) {
   const std::size_t n = front.nodes.size();
   SheetBehind behind{NodeLinks(crack), {}, {}, boundary_marks(crack)};
-  behind.rows = rows_behind(crack, behind.links, front, front_marks(crack, front, opening));
+  behind.rows = rows_behind(crack, behind.links, front, front_marks(behind.mouth, front, opening));
   behind.kinks = kinks_behind(crack, behind.links, front, behind.rows);
   std::vector<Vec3> rates(n, Vec3::Zero());
   std::vector<bool> known(n, false);
