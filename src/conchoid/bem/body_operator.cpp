@@ -96,9 +96,16 @@ std::vector<double> BodyOperator::right_hand_sides(std::span<const LoadCase> loa
   return all;
 }
 
+std::vector<double> BodyOperator::reduced(std::span<const LoadCase> loads) const {
+  std::vector<double> z = right_hand_sides(loads);
+  solver_->reduce(z.data(), loads.size());
+  solver_->middle(z.data(), loads.size());
+  return z;
+}
+
 std::vector<double> BodyOperator::solve(std::span<const LoadCase> loads) const {
-  std::vector<double> x = right_hand_sides(loads);
-  solver_->solve(x.data(), loads.size());
+  std::vector<double> x = reduced(loads);
+  solver_->expand(x.data(), loads.size());
   return x;
 }
 

@@ -15,7 +15,9 @@ class LinearHost : public CrackHost {
 
   std::size_t tractions() const override { return body_->discretisation().tractions(); }
   std::size_t unknowns() const override { return body_->discretisation().unknowns(); }
-  void solve(double* b, std::size_t count) const override { body_->solver().solve(b, count); }
+  void reduce(double* b, std::size_t count) const override { body_->solver().reduce(b, count); }
+  void middle(double* b, std::size_t count) const override { body_->solver().middle(b, count); }
+  void expand(double* b, std::size_t count) const override { body_->solver().expand(b, count); }
 
   std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                    const std::vector<std::size_t>& wanted,
@@ -23,8 +25,8 @@ class LinearHost : public CrackHost {
     return assemble_enrichment_rows(*body_, space, sources, wanted, memory);
   }
 
-  std::vector<double> uncracked(std::span<const LoadCase> loads) const override {
-    return body_->solve(loads);
+  std::vector<double> reduced_loads(std::span<const LoadCase> loads) const override {
+    return body_->reduced(loads);
   }
 
   void add_displacement(const double* x, IdVector<NodeId, Vec3>& u) const override {
@@ -50,7 +52,9 @@ class QuadraticHost : public CrackHost {
 
   std::size_t tractions() const override { return space_.tractions(); }
   std::size_t unknowns() const override { return space_.tractions() + space_.displacements(); }
-  void solve(double* b, std::size_t count) const override { quadratic_->factors().solve(b, count); }
+  void reduce(double* b, std::size_t count) const override { quadratic_->factors().reduce(b, count); }
+  void middle(double* b, std::size_t count) const override { quadratic_->factors().middle(b, count); }
+  void expand(double* b, std::size_t count) const override { quadratic_->factors().expand(b, count); }
 
   std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                    const std::vector<std::size_t>& wanted,
@@ -62,7 +66,7 @@ class QuadraticHost : public CrackHost {
     return rows;
   }
 
-  std::vector<double> uncracked(std::span<const LoadCase> loads) const override {
+  std::vector<double> reduced_loads(std::span<const LoadCase> loads) const override {
     for (const LoadCase& load : loads) {
       require_fitting_load(body_->surface(), body_->kinds(), load);
       if (!sources_of(load).empty())

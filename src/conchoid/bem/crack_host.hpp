@@ -17,15 +17,17 @@ class CrackHost {
   virtual ~CrackHost() = default;
   virtual std::size_t tractions() const = 0;  ///< unknown components q
   virtual std::size_t unknowns() const = 0;   ///< unknown components (q, u)
-  /// A⁻¹ b in place, several vectors one after the other.
-  virtual void solve(double* b, std::size_t count) const = 0;
+  // The steps of A⁻¹ = Pᵀ M P J (BodySolver) in place, several vectors one after the other.
+  virtual void reduce(double* b, std::size_t count) const = 0;  ///< P J b
+  virtual void middle(double* b, std::size_t count) const = 0;  ///< M b
+  virtual void expand(double* b, std::size_t count) const = 0;  ///< Pᵀ b
   /// assemble_enrichment_rows() with the rows of these unknowns.
   virtual std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                            const std::vector<std::size_t>& wanted,
                                            PairMemory* memory) const = 0;
-  /// The unknowns under loads without a crack, one after the other. Errors: InputError when a load does not fit, or, of
-  /// quadratic elements, prescribes a value: they take loads as fields (as_field()).
-  virtual std::vector<double> uncracked(std::span<const LoadCase> loads) const = 0;
+  /// M P J f of loads f without a crack, one after the other; expand() makes unknowns of them. Errors: InputError when a load
+  /// does not fit, or, of quadratic elements, prescribes a value: they take loads as fields (as_field()).
+  virtual std::vector<double> reduced_loads(std::span<const LoadCase> loads) const = 0;
   /// Adds what x says to the displacement of the surface's nodes, and to the mean traction of its triangles.
   virtual void add_displacement(const double* x, IdVector<NodeId, Vec3>& u) const = 0;
   virtual void add_traction(const double* x, std::vector<Vec3>& t) const = 0;

@@ -105,6 +105,7 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
   for (std::size_t w = 0; w < plan.wanted.size(); ++w)
     functions.push_back(make_function(space_, space_.functions[plan.wanted[w]], rows[w]));
   functions_ = std::move(functions);
+  reduce_rows(kept);
   const DenseMatrix coupling = couplings(kept);
   for (std::size_t w = 0; w < plan.wanted.size(); ++w)
     for (std::size_t j = 0; j <= kept + w; ++j) {
@@ -123,26 +124,40 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
     position_[plan.order[i]] = i;
 }
 
-// R A⁻¹ B of all functions' rows and the columns of those from `first` on.
+// Rows of R of the functions from `first` on become rows of Y.
+void CrackSystem::reduce_rows(std::size_t first) {
+  const std::size_t n = host_->unknowns(), nq = host_->tractions(), columns = 3 * (functions_.size() - first);
+  if (n == 0 || columns == 0) return;
+  std::vector<double> y;
+  y.reserve(columns * n);
+  for (std::size_t f = first; f < functions_.size(); ++f)
+    y.insert(y.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+  for (std::size_t c = 0; c < columns; ++c)  // columns of B = J Rᵀ
+    for (std::size_t i = 0; i < nq; ++i)
+      y[c * n + i] = -y[c * n + i];
+  host_->reduce(y.data(), columns);
+  for (std::size_t f = first; f < functions_.size(); ++f)
+    std::copy_n(y.data() + 3 * (f - first) * n, 3 * n, functions_[f].rows.data.data());
+}
+
+// Y M Yᵀ of all functions' rows and the columns of those from `first` on.
 DenseMatrix CrackSystem::couplings(std::size_t first) const {
   constexpr std::size_t rows_of_task = 32;
-  const std::size_t n = host_->unknowns(), nq = host_->tractions();
-  const std::size_t columns = 3 * (functions_.size() - first);
+  const std::size_t n = host_->unknowns(), columns = 3 * (functions_.size() - first);
   DenseMatrix out(size(), columns);
   if (n == 0 || columns == 0) return out;
-  std::vector<double> x;  // B, then A⁻¹ B
-  x.reserve(columns * n);
-  for (std::size_t f = first; f < functions_.size(); ++f)
-    x.insert(x.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
-  for (std::size_t c = 0; c < columns; ++c)
-    for (std::size_t i = 0; i < nq; ++i)
-      x[c * n + i] = -x[c * n + i];
-  host_->solve(x.data(), columns);
+  const auto append_rows = [&](std::size_t begin, std::size_t end, std::vector<double>& rows) {
+    rows.reserve(3 * (end - begin) * n);
+    for (std::size_t f = begin; f < end; ++f)
+      rows.insert(rows.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+  };
+  std::vector<double> x;
+  append_rows(first, functions_.size(), x);
+  host_->middle(x.data(), columns);
   const OneBlasThread one_blas_thread;
   parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
     std::vector<double> rows;
-    for (std::size_t f = begin; f < end; ++f)
-      rows.insert(rows.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+    append_rows(begin, end, rows);
     cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(3 * (end - begin)),
                 static_cast<int>(columns), static_cast<int>(n), 1.0, rows.data(), static_cast<int>(n),
                 x.data(), static_cast<int>(n), 0.0, out.data.data() + 3 * begin * columns,
@@ -198,26 +213,30 @@ std::vector<double> CrackSystem::right_hand_side(const LoadCase& load) const {
   return g;
 }
 
-void CrackSystem::reduce(const double* x, std::vector<double>& g) const {
+void CrackSystem::subtract_load(const double* z, std::vector<double>& g) const {
   const int n = static_cast<int>(host_->unknowns());
   if (n == 0) return;
   const OneBlasThread one_blas_thread;
   for (std::size_t f = 0; f < functions_.size(); ++f)
-    cblas_dgemv(CblasRowMajor, CblasNoTrans, 3, n, -1.0, functions_[f].rows.data.data(), n, x, 1, 1.0,
+    cblas_dgemv(CblasRowMajor, CblasNoTrans, 3, n, -1.0, functions_[f].rows.data.data(), n, z, 1, 1.0,
                 &g[3 * f], 1);
 }
 
-std::vector<double> CrackSystem::forces_on_body(const std::vector<double>& a) const {
-  std::vector<double> out(host_->unknowns(), 0.0);
-  const int n = static_cast<int>(out.size());
-  if (n == 0) return out;
-  const OneBlasThread one_blas_thread;
-  for (std::size_t f = 0; f < functions_.size(); ++f)
-    cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
-                out.data(), 1);
-  for (std::size_t i = 0; i < host_->tractions(); ++i)
-    out[i] = -out[i];
-  return out;
+std::vector<double> CrackSystem::body_unknowns(std::vector<double> z, const std::vector<double>& a) const {
+  const int n = static_cast<int>(z.size());
+  if (n == 0) return z;
+  std::vector<double> y(z.size(), 0.0);
+  {
+    const OneBlasThread one_blas_thread;
+    for (std::size_t f = 0; f < functions_.size(); ++f)
+      cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
+                  y.data(), 1);
+  }
+  host_->middle(y.data(), 1);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    z[i] -= y[i];
+  host_->expand(z.data(), 1);
+  return z;
 }
 
 }  // namespace conchoid

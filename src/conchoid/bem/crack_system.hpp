@@ -24,7 +24,9 @@ struct AppendStatistics {
 /// body's unknowns x = (q, u).
 ///   | A  B | |x|   |f|       R = (K_aᵀ  D_au) one row per component of a, B = (−K_a ; D_ua)
 ///   | R  D | |a| = |g|       S = D − R A⁻¹ B ,   S a = g − R A⁻¹ f ,   x = A⁻¹ (f − B a)   docs/theory.md (B6)
-/// A is only ever solved with, so any CrackHost will do. S is symmetric positive definite; its Cholesky
+/// A is only ever solved with, so any CrackHost will do, and by halves: with A⁻¹ = Pᵀ M P J (BodySolver) and Yᵀ = P J B,
+///   R A⁻¹ B = Y M Yᵀ ,   S a = g − Y z ,   x = Pᵀ (z − M Yᵀ a) ,   z = M P J f ,
+/// where Y takes the place of R and each function's columns are solved with once, and half. S is symmetric positive definite; its Cholesky
 /// factor grows and shrinks at its end with the crack.
 /// Memory for m functions: 72 m² bytes for S and as much for its factor, 72 bytes per function and source,
 /// 24 bytes per function and body unknown.
@@ -35,7 +37,7 @@ class CrackSystem {
     EnrichmentKind kind;
     NodeId node;
     std::vector<double> key;
-    DenseMatrix rows;            ///< 3 × body unknowns, of R
+    DenseMatrix rows;            ///< 3 × body unknowns, of Y
     DenseMatrix sources;         ///< 3 × 3·sources
     Vec3 normal = Vec3::Zero();  ///< of the crack, as far as it may open along it
     bool carries_opening() const { return kind != EnrichmentKind::hat; }
@@ -60,10 +62,10 @@ class CrackSystem {
 
   /// g: the crack's own right-hand side, whose sources must be there.
   std::vector<double> right_hand_side(const LoadCase& load) const;
-  /// g − R x for x = A⁻¹ f.
-  void reduce(const double* x, std::vector<double>& g) const;
-  /// B a.
-  std::vector<double> forces_on_body(const std::vector<double>& a) const;
+  /// g − Y z.
+  void subtract_load(const double* z, std::vector<double>& g) const;
+  /// x = Pᵀ (z − M Yᵀ a).
+  std::vector<double> body_unknowns(std::vector<double> z, const std::vector<double>& a) const;
   /// S⁻¹ in place.
   void solve(double* b, std::size_t count = 1) const { factor_.solve(b, count); }
 
@@ -71,6 +73,7 @@ class CrackSystem {
   struct Plan;
   Plan plan_replacement() const;
   void append(const Plan& plan, std::vector<EnrichmentRows> rows);
+  void reduce_rows(std::size_t first);
   DenseMatrix couplings(std::size_t first) const;
   void eliminate();
 

@@ -15,7 +15,7 @@ struct CrackedBody::State {
   std::shared_ptr<const BodyOperator> body;
   LoadCase load;
   RowStore* store = nullptr;
-  std::vector<double> uncracked;  // (q, u) of the load without the crack
+  std::vector<double> reduced_load;  // CrackHost::reduced_loads()
   CrackSystem crack;
   std::size_t cut_nodes = 0;
   std::vector<double> solution;      // (q, u)
@@ -30,15 +30,15 @@ struct CrackedBody::State {
   const TriMesh& surface() const { return body->surface(); }
 
   void set_load(LoadCase wanted) {
-    uncracked = crack.host().uncracked({&wanted, 1});
+    reduced_load = crack.host().reduced_loads({&wanted, 1});
     crack.need_sources(sources_of(wanted));
     load = std::move(wanted);
   }
 
-  // Coefficients of the crack under a load whose solution without the crack is x.
-  std::vector<double> solve_crack(const LoadCase& of, const double* x, ContactReport& report) const {
+  // Coefficients of the crack under a load, which reduced is z.
+  std::vector<double> solve_crack(const LoadCase& of, const double* z, ContactReport& report) const {
     std::vector<double> a = crack.right_hand_side(of);
-    crack.reduce(x, a);
+    crack.subtract_load(z, a);
     crack.solve(a.data());
     report = {};
     if (!body->settings().contact) return a;
@@ -114,26 +114,20 @@ const ContactReport& CrackedBody::contact() const {
 
 void CrackedBody::solve() {
   State& s = *state_;
-  s.coefficients = s.solve_crack(s.load, s.uncracked.data(), s.contact);
-  s.solution = s.uncracked;
-  if (!s.coefficients.empty()) {
-    std::vector<double> x = s.crack.forces_on_body(s.coefficients);
-    s.crack.host().solve(x.data(), 1);
-    for (std::size_t i = 0; i < x.size(); ++i)
-      s.solution[i] -= x[i];
-  }
+  s.coefficients = s.solve_crack(s.load, s.reduced_load.data(), s.contact);
+  s.solution = s.crack.body_unknowns(s.reduced_load, s.coefficients);
   s.opening = s.opening_of(s.coefficients);
 }
 
 std::vector<IdVector<NodeId, Vec3>> CrackedBody::openings(std::span<const LoadCase> loads) {
   State& s = *state_;
-  const std::vector<double> uncracked = s.crack.host().uncracked(loads);
+  const std::vector<double> reduced = s.crack.host().reduced_loads(loads);
   std::vector<IdVector<NodeId, Vec3>> out;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     s.crack.need_sources(sources_of(loads[i]));
     ContactReport report;
-    const double* x = uncracked.data() + i * s.crack.host().unknowns();
-    out.push_back(s.opening_of(s.solve_crack(loads[i], x, report)));
+    const double* z = reduced.data() + i * s.crack.host().unknowns();
+    out.push_back(s.opening_of(s.solve_crack(loads[i], z, report)));
   }
   return out;
 }

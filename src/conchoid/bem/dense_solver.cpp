@@ -31,7 +31,9 @@ class DenseSolver : public BodySolver {
   }
 
   void apply(const double* x, double* y, std::size_t count) const override { factors_.apply(x, y, count); }
-  void solve(double* b, std::size_t count) const override { factors_.solve(b, count); }
+  void reduce(double* b, std::size_t count) const override { factors_.reduce(b, count); }
+  void middle(double* b, std::size_t count) const override { factors_.middle(b, count); }
+  void expand(double* b, std::size_t count) const override { factors_.expand(b, count); }
   std::size_t bytes() const override { return factors_.bytes(); }
 
  private:

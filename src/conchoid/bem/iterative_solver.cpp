@@ -59,19 +59,29 @@ class IterativeSolver : public BodySolver {
       apply_one(x + c * size(), y + c * size());
   }
 
-  void solve(double* b, std::size_t count) const override {
+  // Nothing can be done by halves here: P is the identity.
+  void reduce(double* b, std::size_t count) const override { turn_signs(b, count); }
+  void middle(double* b, std::size_t count) const override {
     if (size() == 0) return;
+    turn_signs(b, count);
     parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c)
         solve_by_products([&](const double* x, double* y) { apply_one(x, y); }, nq_, diagonal_,
                           {b + c * size(), size()});
     });
   }
+  void expand(double*, std::size_t) const override {}
 
   std::size_t bytes() const override { return (V_.size() + K_.size() + D_.size()) * sizeof(double); }
 
  private:
   std::size_t size() const { return nq_ + nu_; }
+
+  void turn_signs(double* b, std::size_t count) const {  // J b
+    for (std::size_t c = 0; c < count; ++c, b += size())
+      for (std::size_t i = 0; i < nq_; ++i)
+        b[i] = -b[i];
+  }
 
   void hold(const RigidMotions& motions) {
     double trace = 0;

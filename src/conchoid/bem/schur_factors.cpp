@@ -12,16 +12,23 @@
 namespace conchoid {
 namespace {
 
-constexpr std::size_t kVectors = 48;  // right-hand sides of one task
+// Right-hand sides of one task at most: each task goes through all of the factors.
+constexpr std::size_t kVectors = 128;
+
+// An even number of equal parts.
+std::size_t vectors_of_part(std::size_t count) {
+  const std::size_t parts = 2 * std::max<std::size_t>(1, (count + 2 * kVectors - 1) / (2 * kVectors));
+  return std::max<std::size_t>(1, (count + parts - 1) / parts);
+}
 
 }  // namespace
 
-// Vectors in fixed portions: task(tractions, displacements, vectors).
+// Vectors in portions that depend on their number alone: task(tractions, displacements, vectors).
 template <class Task>
 void SchurFactors::in_parts(double* vectors, std::size_t count, const Task& task) const {
   if (size() == 0) return;
   const OneBlasThread one_blas_thread;
-  parallel_for(count, kVectors, [&](std::size_t begin, std::size_t end) {
+  parallel_for(count, vectors_of_part(count), [&](std::size_t begin, std::size_t end) {
     double* first = vectors + begin * size();
     task(first, first + nq_, end - begin);
   });
@@ -56,20 +63,31 @@ void SchurFactors::apply(const double* x, double* y, std::size_t count) const {
   });
 }
 
-void SchurFactors::solve(double* b, std::size_t count) const {
+void SchurFactors::reduce(double* b, std::size_t count) const {
   in_parts(b, count, [&](double* q, double* u, std::size_t columns) {
-    V_.solve_lower(q, columns, size());
-    multiply(true, columns, -V_.scale(), q, u);
-    S_.solve_lower(u, columns, size());
-    S_.solve_transposed(u, columns, size());
-    for (std::size_t c = 0; c < columns; ++c)
-      for (std::size_t i = 0; i < nu_; ++i)
-        u[c * size() + i] *= S_.scale();
-    multiply(false, columns, 1, u, q);
-    V_.solve_transposed(q, columns, size());
     for (std::size_t c = 0; c < columns; ++c)
       for (std::size_t i = 0; i < nq_; ++i)
-        q[c * size() + i] *= V_.scale();
+        q[c * size() + i] = -q[c * size() + i];
+    V_.solve_lower(q, columns, size());
+    multiply(true, columns, V_.scale(), q, u);
+    S_.solve_lower(u, columns, size());
+  });
+}
+
+void SchurFactors::middle(double* b, std::size_t count) const {
+  for (std::size_t c = 0; c < count; ++c, b += size()) {
+    for (std::size_t i = 0; i < nq_; ++i)
+      b[i] *= -V_.scale();
+    for (std::size_t i = nq_; i < size(); ++i)
+      b[i] *= S_.scale();
+  }
+}
+
+void SchurFactors::expand(double* b, std::size_t count) const {
+  in_parts(b, count, [&](double* q, double* u, std::size_t columns) {
+    S_.solve_transposed(u, columns, size());
+    multiply(false, columns, V_.scale(), u, q);
+    V_.solve_transposed(q, columns, size());
   });
 }
 
@@ -95,7 +113,7 @@ void SchurFactors::factor_single_layer() {
 void SchurFactors::reduce_coupling() {
   if (nq_ == 0) return;
   const OneBlasThread one_blas_thread;
-  parallel_for(nu_, kVectors, [&](std::size_t begin, std::size_t end) {
+  parallel_for(nu_, vectors_of_part(nu_), [&](std::size_t begin, std::size_t end) {
     V_.solve_lower(W_.data() + begin * nq_, end - begin, nq_);
   });
 }

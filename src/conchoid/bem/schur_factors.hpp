@@ -32,7 +32,11 @@ class SchurFactors {
   void factor(const RigidMotions& motions);
 
   void apply(const double* x, double* y, std::size_t count) const;
-  void solve(double* b, std::size_t count) const;
+  // The steps of BodySolver, with  P = | L⁻¹             |   and M = diag(−s, s'), where s' S = L' L'ᵀ.
+  //                                    | s L'⁻¹ Wᵀ  L'⁻¹ |
+  void reduce(double* b, std::size_t count) const;
+  void middle(double* b, std::size_t count) const;
+  void expand(double* b, std::size_t count) const;
 
   void put(ByteWriter& out) const;
   void get(ByteReader& in);

@@ -16,7 +16,9 @@
 namespace conchoid {
 namespace {
 
-constexpr double kSliver = 5e-3;   // altitude over longest edge that needs no other try
+constexpr double kSliver = 5e-3;  // altitude over longest edge that needs no other try
+// The same for the displacement that the sheet has already: another moves all of it, and nothing of the system stays.
+constexpr double kSliverKept = 1e-3;
 constexpr double kNothing = 1e-9;  // below it a piece has no area
 // × r̄, longest edge of the surface's pieces at a crack, and how much longer they become with each unit of distance
 // from it: K at the ends of a mouth is within a few hundredths then (docs/verification.md).
@@ -102,6 +104,7 @@ void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& 
   double best_piece = -1, best_shift = 0;
   DividedMesh divided =
       near == NearCracks::divided ? divide_near(surface, sheet, crack_edge) : undivided(surface);
+  const bool known = !state.cut.sheet.empty();
   std::vector<double> shifts{state.displacement};
   for (const double shift : kShifts)
     if (shift != state.displacement) shifts.push_back(shift);
@@ -123,7 +126,7 @@ void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& 
     } catch (const ComputationError&) {  // mouth curves that cannot be told apart: the next one may do
       continue;
     }
-    if (best_piece > kSliver) break;
+    if (best_piece > (known && shift == state.displacement ? kSliverKept : kSliver)) break;
   }
   if (!(best_piece > kNothing))
     throw SingularSystem(
