@@ -67,10 +67,18 @@ TEST(FrontResolution, KFarBelowTheLargestTurnsNothing) {
   EXPECT_LT(resolved[4].turn, 0.5);
 }
 
+// Reversed against both neighbours: what smoothing leaves is far less than what it took away.
+TEST(FrontResolution, NoiseTurnsNothing) {
+  const auto resolved = resolve({{48, 2, 0}, {48, 2, 0}, {-23, -9, 0}, {48, 2, 0}, {48, 2, 0}});
+  EXPECT_LT(resolved[2].turn, 0.2);
+  EXPECT_EQ(resolved[0].turn, 1);
+}
+
 TEST(FrontResolution, PressureHoldsUnlessSlidingKinksOutOfIt) {
   EXPECT_TRUE(resolve({{-3, 0, 0}})[0].pressed);
   EXPECT_TRUE(
       resolve({{-3, 1.5, 0}})[0].pressed);  // K_eff = 1.5 K_c, but pressed together in every direction
+  EXPECT_TRUE(resolve({{-30, 20, 5}})[0].pressed);  // K_c would be reached, but closed faces have no such K_I
   EXPECT_FALSE(resolve({{-0.5, 6.6, 0}})[0].pressed);  // a closed notch under shear: its wings open
   EXPECT_FALSE(resolve({{3, 1.5, 0}})[0].pressed);
 }

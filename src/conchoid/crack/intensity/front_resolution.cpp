@@ -15,6 +15,10 @@ double size_of(const Vec3& K, const ElasticConstants& m) {
   return std::sqrt(K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - m.poisson_ratio));
 }
 
+double sliding_of(const Vec3& K, const ElasticConstants& m) {
+  return std::sqrt(K[1] * K[1] + K[2] * K[2] / (1 - m.poisson_ratio));
+}
+
 struct FrontValues {
   const std::vector<double>& toughness;
   bool closed;
@@ -46,7 +50,7 @@ struct FrontValues {
 }  // namespace
 
 double greatest_hoop_intensity(const Vec3& K, const ElasticConstants& m) {
-  const double sliding = std::sqrt(K[1] * K[1] + K[2] * K[2] / (1 - m.poisson_ratio));
+  const double sliding = sliding_of(K, m);
   const Vec3 plane(K[0], sliding, 0);
   const double root = std::sqrt(K[0] * K[0] + 8 * sliding * sliding);
   if (!(K[0] + root > 0)) return 0;
@@ -65,11 +69,13 @@ std::vector<FrontResolution> resolve_along_front(const std::vector<Vec3>& K,
     largest = std::max(largest, size_of(k, m));
   std::vector<FrontResolution> out(K.size());
   for (std::size_t i = 0; i < K.size(); ++i) {
-    if (const double size = size_of(smooth[i], m); size < kTellingShare * largest)
-      out[i].turn = std::pow(size / (kTellingShare * largest), 2);
+    const double size = size_of(smooth[i], m);
+    if (const double error = std::max(kTellingShare * largest, size_of(K[i] - smooth[i], m)); size < error)
+      out[i].turn = std::pow(size / error, 2);
     out[i].intensity = smooth[i];
     out[i].step = 1 - (1 - kLeastUnresolvedStep) * std::clamp(values.change(smooth, i) - 1, 0.0, 1.0);
-    out[i].pressed = smooth[i][0] < 0 && greatest_hoop_intensity(smooth[i], m) < toughness[i];
+    out[i].pressed = smooth[i][0] < 0 && (-smooth[i][0] > sliding_of(smooth[i], m) ||
+                                          greatest_hoop_intensity(smooth[i], m) < toughness[i]);
   }
   return out;
 }

@@ -32,10 +32,12 @@ double greatest_hoop_intensity(const Vec3& K, const ElasticConstants& m);
 ///   - K is smoothed by (¼, ½, ¼), two passes, in full from u_i = 1¼ on, not at all below ¾: a front on which
 ///     K is smooth keeps its bits;
 ///   - where u_i is still above 1 the step is shortened, to a quarter at u_i = 2 (K reversed);
-///   - the elements' error in K is a share of the largest K along the front, which for a K far below it tells no
-///     direction: the angle counts by min(1, |K_i| / (kTellingShare max_j |K_j|))²;
+///   - the error of K is a share of the largest K along the front, and at least what smoothing took away; a K below
+///     it tells no direction: the angle counts by min(1, |K_i| / max(kTellingShare max_j |K_j|, |ΔK_i|))²;
 ///   - a point under pressure, K_I < 0, is pressed unless sliding opens a kink against it: the greatest hoop
-///     intensity of (K_I, √(K_II² + K_III²/(1−ν))) reaches K_c. A front of closed faces stays there.
+///     intensity of (K_I, √(K_II² + K_III²/(1−ν))) reaches K_c, and the second is no less than −K_I: closed faces cannot
+///     pass through each other, so that K_I < 0 is what the fit makes of them, and its error. A front of closed faces
+///     stays there.
 /// @param K          in the frame of each node, in the order of the front [Pa·√m]
 /// @param toughness  K_c at each node [Pa·√m]
 /// @param closed     a ring
