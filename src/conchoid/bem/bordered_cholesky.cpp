@@ -15,7 +15,7 @@ namespace conchoid {
 void BorderedCholesky::reserve(std::size_t n) {
   if (n <= capacity_) return;
   const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
-  std::vector<double> moved(grown * grown, 0.0);
+  auto moved = std::make_unique_for_overwrite<double[]>(grown * grown);
   for (std::size_t j = 0; j < n_; ++j)
     std::copy_n(&factor_[j * capacity_ + j], n_ - j, &moved[j * grown + j]);
   factor_ = std::move(moved);
@@ -31,8 +31,8 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
   reserve(n_ + m);
   if (n_ == 0) scale_ = unit_scale(diagonal[0]);
   const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
-  double* border = factor_.data() + n_;  // rows n…n+m of the old columns
-  double* corner = factor_.data() + n_ * capacity_ + n_;
+  double* border = factor_.get() + n_;  // rows n…n+m of the old columns
+  double* corner = factor_.get() + n_ * capacity_ + n_;
   for (std::size_t j = 0; j < n_; ++j)
     for (std::size_t i = 0; i < m; ++i)
       border[j * capacity_ + i] = scale_ * coupling[i * n_ + j];
@@ -40,7 +40,7 @@ bool BorderedCholesky::append(const std::vector<double>& coupling, const std::ve
     for (std::size_t i = j; i < m; ++i)
       corner[j * capacity_ + i] = scale_ * diagonal[i * m + j];
   if (n_ > 0) {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.data(),
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.get(),
                 lead, border, lead);
     cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, n, -1.0, border, lead, 1.0, corner, lead);
   }
@@ -60,7 +60,7 @@ void BorderedCholesky::solve(double* b, std::size_t count) const {
   for (std::size_t i = 0; i < n_ * count; ++i)
     b[i] *= scale_;
   int info = 0;
-  dpotrs_("L", &n, &columns, factor_.data(), &lead, b, &n, &info);
+  dpotrs_("L", &n, &columns, factor_.get(), &lead, b, &n, &info);
 }
 
 }  // namespace conchoid

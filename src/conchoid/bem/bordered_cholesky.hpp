@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace conchoid {
@@ -28,9 +29,9 @@ class BorderedCholesky {
   void reserve(std::size_t n);
 
   std::size_t n_ = 0;
-  double scale_ = 1;            // of A: unit_scale of its first entry
-  std::size_t capacity_ = 0;    // leading dimension
-  std::vector<double> factor_;  // column-major, lower triangle
+  double scale_ = 1;                  // of A: unit_scale of its first entry
+  std::size_t capacity_ = 0;          // leading dimension
+  std::unique_ptr<double[]> factor_;  // column-major, lower triangle; nothing is ever put above it
 };
 
 }  // namespace conchoid

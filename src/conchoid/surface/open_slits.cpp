@@ -82,6 +82,18 @@ IdVector<NodeId, Vec3> ways(const Fragment& f, const SharedPlaces& places,
   return way;
 }
 
+/// Those of the faces that have a node at one of the places.
+std::vector<TriId> faces_at(const TriMesh& mesh, const std::vector<TriId>& faces,
+                            const IdVector<NodeId, char>& places_wanted, const SharedPlaces& places) {
+  std::vector<TriId> out;
+  for (const TriId t : faces) {
+    const auto& c = mesh.corners[t];
+    if (std::any_of(c.begin(), c.end(), [&](NodeId n) { return places_wanted[places.first[n]] != 0; }))
+      out.push_back(t);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool open_slits(Fragment& f, double width) {
@@ -105,20 +117,28 @@ bool open_slits(Fragment& f, double width) {
   move();
   constexpr std::size_t most_pairs = 10000;
   constexpr int rounds = 5;
+  std::vector<TriId> moved = slit;
+  bool stuck = false;  // faces cross that do not move
   for (int round = 1; round <= rounds; ++round) {
-    const auto crossing = self_intersections(f.mesh, slit, most_pairs);
+    const auto crossing = self_intersections(f.mesh, moved, most_pairs);
     IdVector<NodeId, char> reached(f.mesh.node_count(), 0);
     bool any = false;
-    for (const auto& [s, t] : crossing)
+    for (const auto& [s, t] : crossing) {
+      bool moves = false;
       for (const TriId face : {s, t})
         for (const NodeId n : f.mesh.corners[face])
-          if (!way[n].isZero(0)) reached[places.first[n]] = any = true;
-    if (!any) return crossing.empty();
+          if (!way[n].isZero(0)) reached[places.first[n]] = moves = true;
+      (moves ? any : stuck) = true;
+    }
+    if (!any) break;
     for (std::size_t n = 0; n < reached.size(); ++n)
       if (reached[NodeId(n)]) share[NodeId(n)] = round == rounds ? 0 : 0.3 * share[NodeId(n)];
     move();
+    // What did not cross and did not move does not cross now.
+    moved = crossing.size() < most_pairs ? faces_at(f.mesh, slit, reached, places) : slit;
+    if (round == rounds) stuck = stuck || !self_intersections(f.mesh, moved, 1).empty();
   }
-  return self_intersections(f.mesh, slit, 1).empty();
+  return !stuck;
 }
 
 }  // namespace conchoid
