@@ -13,4 +13,4 @@ for name in cube cylinder bar; do
   "$conchoid" forest train "$work/$name.h5" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
 done
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --trees 30 --depth 13 --leaf 20 --out databases/versatile.forest
+  --features versatile --trees 12 --depth 18 --leaf 8 --out databases/versatile.forest

@@ -17,7 +17,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "polyhedron"]
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
-TRAINING = ["--features", "versatile", "--trees", "30", "--depth", "13", "--leaf", "20"]
+TRAINING = ["--features", "versatile", "--trees", "12", "--depth", "18", "--leaf", "8"]
 ARMADILLO = """[body]
 mesh = "{file}"
 remesh = 1100
