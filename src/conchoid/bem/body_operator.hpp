@@ -54,7 +54,7 @@ class BodyOperator {
   /// Right-hand sides (f_D, f_N) of load cases, one after the other.
   /// Errors: InputError when one does not fit (require_fitting_load).
   std::vector<double> right_hand_sides(std::span<const LoadCase> loads) const;
-  /// M P J f of load cases (BodySolver), one after the other; expand() makes the unknowns of them.
+  /// M P J f of load cases (HalfSolver), one after the other; expand() makes the unknowns of them.
   std::vector<double> reduced(std::span<const LoadCase> loads) const;
   /// The unknowns (q, u) of load cases, one after the other.
   std::vector<double> solve(std::span<const LoadCase> loads) const;

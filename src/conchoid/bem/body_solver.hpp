@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conchoid/bem/body_entries.hpp"
+#include "conchoid/bem/half_solver.hpp"
 #include "conchoid/core/byte_cache.hpp"
 
 namespace conchoid {
@@ -15,24 +16,10 @@ namespace conchoid {
 ///         | Kᵀ  D + α Σrrᵀ | |u|            term leaves the solution of balanced loads as it is, without r
 /// Everything else (cracks, loads) goes through these functions, so another representation of A (compressed,
 /// on another device, iterative) is a class of its own and one line in body_solver.cpp.
-/// With J = diag(−1, 1) on (q, u), J A is symmetric, and A is solved with in three steps,
-///   A⁻¹ = Pᵀ M P J ,  M symmetric ,
-/// so that products (J v)ᵀ A⁻¹ w take the first step of each vector alone: (P J v)ᵀ M (P J w).
-class BodySolver {
+class BodySolver : public HalfSolver {
  public:
-  virtual ~BodySolver() = default;
   /// y = A x.
   virtual void apply(const double* x, double* y, std::size_t count = 1) const = 0;
-  // In place. Errors: ComputationError when an iteration does not converge.
-  virtual void reduce(double* b, std::size_t count = 1) const = 0;  ///< P J b
-  virtual void middle(double* b, std::size_t count = 1) const = 0;  ///< M b
-  virtual void expand(double* b, std::size_t count = 1) const = 0;  ///< Pᵀ b
-  /// A⁻¹ b.
-  void solve(double* b, std::size_t count = 1) const {
-    reduce(b, count);
-    middle(b, count);
-    expand(b, count);
-  }
   /// Memory that the solver holds.
   virtual std::size_t bytes() const = 0;
 };

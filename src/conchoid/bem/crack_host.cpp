@@ -15,9 +15,7 @@ class LinearHost : public CrackHost {
 
   std::size_t tractions() const override { return body_->discretisation().tractions(); }
   std::size_t unknowns() const override { return body_->discretisation().unknowns(); }
-  void reduce(double* b, std::size_t count) const override { body_->solver().reduce(b, count); }
-  void middle(double* b, std::size_t count) const override { body_->solver().middle(b, count); }
-  void expand(double* b, std::size_t count) const override { body_->solver().expand(b, count); }
+  const HalfSolver& solver() const override { return body_->solver(); }
 
   std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                    const std::vector<std::size_t>& wanted,
@@ -52,9 +50,7 @@ class QuadraticHost : public CrackHost {
 
   std::size_t tractions() const override { return space_.tractions(); }
   std::size_t unknowns() const override { return space_.tractions() + space_.displacements(); }
-  void reduce(double* b, std::size_t count) const override { quadratic_->factors().reduce(b, count); }
-  void middle(double* b, std::size_t count) const override { quadratic_->factors().middle(b, count); }
-  void expand(double* b, std::size_t count) const override { quadratic_->factors().expand(b, count); }
+  const HalfSolver& solver() const override { return quadratic_->factors(); }
 
   std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                    const std::vector<std::size_t>& wanted,

@@ -17,10 +17,7 @@ class CrackHost {
   virtual ~CrackHost() = default;
   virtual std::size_t tractions() const = 0;  ///< unknown components q
   virtual std::size_t unknowns() const = 0;   ///< unknown components (q, u)
-  // The steps of A⁻¹ = Pᵀ M P J (BodySolver) in place, several vectors one after the other.
-  virtual void reduce(double* b, std::size_t count) const = 0;  ///< P J b
-  virtual void middle(double* b, std::size_t count) const = 0;  ///< M b
-  virtual void expand(double* b, std::size_t count) const = 0;  ///< Pᵀ b
+  virtual const HalfSolver& solver() const = 0;
   /// assemble_enrichment_rows() with the rows of these unknowns.
   virtual std::vector<EnrichmentRows> rows(const EnrichedSpace& space, std::span<const LoadSource> sources,
                                            const std::vector<std::size_t>& wanted,

@@ -124,18 +124,24 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
     position_[plan.order[i]] = i;
 }
 
+// Rows of some functions, one after the other.
+std::vector<double> CrackSystem::rows_of(std::size_t first, std::size_t last) const {
+  std::vector<double> rows;
+  rows.reserve(3 * (last - first) * host_->unknowns());
+  for (std::size_t f = first; f < last; ++f)
+    rows.insert(rows.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+  return rows;
+}
+
 // Rows of R of the functions from `first` on become rows of Y.
 void CrackSystem::reduce_rows(std::size_t first) {
   const std::size_t n = host_->unknowns(), nq = host_->tractions(), columns = 3 * (functions_.size() - first);
   if (n == 0 || columns == 0) return;
-  std::vector<double> y;
-  y.reserve(columns * n);
-  for (std::size_t f = first; f < functions_.size(); ++f)
-    y.insert(y.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
+  std::vector<double> y = rows_of(first, functions_.size());
   for (std::size_t c = 0; c < columns; ++c)  // columns of B = J Rᵀ
     for (std::size_t i = 0; i < nq; ++i)
       y[c * n + i] = -y[c * n + i];
-  host_->reduce(y.data(), columns);
+  host_->solver().reduce(y.data(), columns);
   for (std::size_t f = first; f < functions_.size(); ++f)
     std::copy_n(y.data() + 3 * (f - first) * n, 3 * n, functions_[f].rows.data.data());
 }
@@ -146,18 +152,11 @@ DenseMatrix CrackSystem::couplings(std::size_t first) const {
   const std::size_t n = host_->unknowns(), columns = 3 * (functions_.size() - first);
   DenseMatrix out(size(), columns);
   if (n == 0 || columns == 0) return out;
-  const auto append_rows = [&](std::size_t begin, std::size_t end, std::vector<double>& rows) {
-    rows.reserve(3 * (end - begin) * n);
-    for (std::size_t f = begin; f < end; ++f)
-      rows.insert(rows.end(), functions_[f].rows.data.begin(), functions_[f].rows.data.end());
-  };
-  std::vector<double> x;
-  append_rows(first, functions_.size(), x);
-  host_->middle(x.data(), columns);
+  std::vector<double> x = rows_of(first, functions_.size());
+  host_->solver().middle(x.data(), columns);
   const OneBlasThread one_blas_thread;
   parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> rows;
-    append_rows(begin, end, rows);
+    const std::vector<double> rows = rows_of(begin, end);
     cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(3 * (end - begin)),
                 static_cast<int>(columns), static_cast<int>(n), 1.0, rows.data(), static_cast<int>(n),
                 x.data(), static_cast<int>(n), 0.0, out.data.data() + 3 * begin * columns,
@@ -232,10 +231,10 @@ std::vector<double> CrackSystem::body_unknowns(std::vector<double> z, const std:
       cblas_dgemv(CblasRowMajor, CblasTrans, 3, n, 1.0, functions_[f].rows.data.data(), n, &a[3 * f], 1, 1.0,
                   y.data(), 1);
   }
-  host_->middle(y.data(), 1);
+  host_->solver().middle(y.data(), 1);
   for (std::size_t i = 0; i < z.size(); ++i)
     z[i] -= y[i];
-  host_->expand(z.data(), 1);
+  host_->solver().expand(z.data(), 1);
   return z;
 }
 

@@ -24,7 +24,7 @@ struct AppendStatistics {
 /// body's unknowns x = (q, u).
 ///   | A  B | |x|   |f|       R = (K_aᵀ  D_au) one row per component of a, B = (−K_a ; D_ua)
 ///   | R  D | |a| = |g|       S = D − R A⁻¹ B ,   S a = g − R A⁻¹ f ,   x = A⁻¹ (f − B a)   docs/theory.md (B6)
-/// A is only ever solved with, so any CrackHost will do, and by halves: with A⁻¹ = Pᵀ M P J (BodySolver) and Yᵀ = P J B,
+/// A is only ever solved with, so any CrackHost will do, and by halves: with A⁻¹ = Pᵀ M P J (HalfSolver) and Yᵀ = P J B,
 ///   R A⁻¹ B = Y M Yᵀ ,   S a = g − Y z ,   x = Pᵀ (z − M Yᵀ a) ,   z = M P J f ,
 /// where Y takes the place of R and each function's columns are solved with once, and half. S is symmetric positive definite; its Cholesky
 /// factor grows and shrinks at its end with the crack.
@@ -73,6 +73,7 @@ class CrackSystem {
   struct Plan;
   Plan plan_replacement() const;
   void append(const Plan& plan, std::vector<EnrichmentRows> rows);
+  std::vector<double> rows_of(std::size_t first, std::size_t last) const;
   void reduce_rows(std::size_t first);
   DenseMatrix couplings(std::size_t first) const;
   void eliminate();

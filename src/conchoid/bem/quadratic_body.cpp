@@ -242,9 +242,7 @@ QuadraticSolution QuadraticBody::solve(const LoadCase& load) const {
   require_fitting_load(s.corners.surface, s.corners.kinds, load);
   QuadraticData data(s, load);
   std::vector<double> x = right_hand_side(data);
-  factors_.reduce(x.data(), 1);
-  factors_.middle(x.data(), 1);
-  factors_.expand(x.data(), 1);
+  factors_.solve(x.data());
   QuadraticSolution out{space_, std::move(data.displacement), std::move(data.traction), load.ambient};
   for (std::size_t h = 0; h < s.corners.held_triangles.size(); ++h)
     for (std::size_t a = 0; a < 3; ++a)

@@ -14,7 +14,7 @@ namespace conchoid {
 ///   | Kᵀ  D | |u| = |f_N|                                                             docs/theory.md (B1)
 /// Filled in this order: V's tiles, factor_single_layer(), W with K, reduce_coupling(), S's tiles with D, factor().
 /// The two factor…() throw ComputationError when what they are given is not definite.
-class SchurFactors {
+class SchurFactors : public HalfSolver {
  public:
   SchurFactors(std::size_t tractions, std::size_t displacements)
       : nq_(tractions), nu_(displacements), V_(nq_), S_(nu_), W_(nq_ * nu_) {}
@@ -32,11 +32,11 @@ class SchurFactors {
   void factor(const RigidMotions& motions);
 
   void apply(const double* x, double* y, std::size_t count) const;
-  // The steps of BodySolver, with  P = | L⁻¹             |   and M = diag(−s, s'), where s' S = L' L'ᵀ.
+  // With  P = | L⁻¹             |   and M = diag(−s, s'), where s' S = L' L'ᵀ.
   //                                    | s L'⁻¹ Wᵀ  L'⁻¹ |
-  void reduce(double* b, std::size_t count) const;
-  void middle(double* b, std::size_t count) const;
-  void expand(double* b, std::size_t count) const;
+  void reduce(double* b, std::size_t count) const override;
+  void middle(double* b, std::size_t count) const override;
+  void expand(double* b, std::size_t count) const override;
 
   void put(ByteWriter& out) const;
   void get(ByteReader& in);

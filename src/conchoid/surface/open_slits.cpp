@@ -119,7 +119,7 @@ bool open_slits(Fragment& f, double width) {
   constexpr int rounds = 5;
   std::vector<TriId> moved = slit;
   bool stuck = false;  // faces cross that do not move
-  for (int round = 1; round <= rounds; ++round) {
+  for (int round = 1;; ++round) {
     const auto crossing = self_intersections(f.mesh, moved, most_pairs);
     IdVector<NodeId, char> reached(f.mesh.node_count(), 0);
     bool any = false;
@@ -130,15 +130,13 @@ bool open_slits(Fragment& f, double width) {
           if (!way[n].isZero(0)) reached[places.first[n]] = moves = true;
       (moves ? any : stuck) = true;
     }
-    if (!any) break;
+    if (!any || round > rounds) return !any && !stuck;
     for (std::size_t n = 0; n < reached.size(); ++n)
       if (reached[NodeId(n)]) share[NodeId(n)] = round == rounds ? 0 : 0.3 * share[NodeId(n)];
     move();
     // What did not cross and did not move does not cross now.
     moved = crossing.size() < most_pairs ? faces_at(f.mesh, slit, reached, places) : slit;
-    if (round == rounds) stuck = stuck || !self_intersections(f.mesh, moved, 1).empty();
   }
-  return !stuck;
 }
 
 }  // namespace conchoid
