@@ -126,6 +126,17 @@ TEST(LastLigament, LiesBetweenTheTwoEndsOfACrackRoundAHole) {
     EXPECT_LT(std::abs(x.z() - 0.021), 0.04);
 }
 
+// A sheet that undulates about the body's face, deeper than a cell: a hundred scales of a few cells each, which make
+// no part together.
+TEST(LastLigament, SpecksOfTheGridAreNone) {
+  const auto waves = [](double depth) {
+    return shapes::sheet(-0.6, 0.6, -0.6, 0.6, 90, 90, [&](double u, double v) {
+      return Vec3(u, v, 0.5 + depth * std::cos(40 * u) * std::cos(40 * v));
+    });
+  };
+  EXPECT_TRUE(find_last_ligaments(unit_cube(), waves(0.03), kEdge).empty());
+}
+
 TEST(LastLigament, TurnsAndMovesWithTheBody) {
   const auto reference = find_last_ligaments(unit_cube(), plane_sheet(-0.6, 0.38, 0.013), kEdge);
   ASSERT_EQ(reference.size(), 1u);

@@ -7,6 +7,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/unfold.hpp"
+#include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/surface/open_slits.hpp"
 
@@ -14,12 +15,15 @@ namespace conchoid {
 namespace {
 
 // Tried in turn.
-constexpr std::array<LigamentOverlap, 8> kOverlaps{
-    {{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}, {4.2, 0.35}, {4.2, -0.35}, {2.8, 0.15}, {2.8, -0.15}}};
+constexpr std::array<LigamentOverlap, 4> kOverlaps{{{3.5, 0.25}, {3.5, -0.25}, {5, 0.25}, {5, -0.25}}};
 
 // A piece below this share of what a ligament would part from the body is a chip of the two surfaces that cut it, not
 // the part: the volumes are counted in cells.
 constexpr double kLeastShareOfPart = 0.5;
+
+// Passes over the surface between the two sides, tried in turn.
+constexpr std::array<int, 3> kSmoothings{20, 5, 0};
+constexpr double kStandsFor = 2;  // × cell: the parts of cracks within are its own
 
 constexpr int kCleanWays = 2;  // tried, where they part off chips as well
 
@@ -78,6 +82,96 @@ OpenFragments open_all(const std::vector<Fragment>& fragments, double width) {
   return open;
 }
 
+// The triangles of the sheets that lie farther than `near` from the surface.
+TriMesh apart_from(const TriMesh& sheets, const TriMesh& surface, double near) {
+  if (surface.corners.empty()) return sheets;
+  const ClosestPointTree tree(surface);
+  std::vector<TriId> apart;
+  for (std::size_t t = 0; t < sheets.triangle_count(); ++t)
+    if (tree.closest(centroid(sheets, TriId(t))).squared_distance > near * near) apart.emplace_back(t);
+  return submesh(sheets, apart);
+}
+
+// Breaks one ligament of a body that is whole but for slits.
+class LigamentCut {
+ public:
+  LigamentCut(BodyCut& cut, const PreparedBody& body, const RunSpec& run, const LastLigament& ligament,
+              const TriMesh& sheets)
+      : cut_(cut),
+        body_(body),
+        settings_(fragment_settings(body, run)),
+        ligament_(ligament),
+        sheets_(sheets),
+        surfaces_(ligament, sheets) {}
+
+  // Along a surface that joins the cracks, which part the body with it.
+  bool over_ends() {
+    std::optional<Parted> best;
+    int clean_ways = 0;
+    for (const LigamentOverlap& overlap : kOverlaps) {
+      std::optional<Parted> way =
+          parted(cut_.fragments, unfolded_part(surfaces_.with(overlap)), sheets_.triangle_count());
+      if (!way || !way->open.clean) continue;
+      if (clean_ways++ == 0 || way->fragments.size() < best->fragments.size()) best = std::move(way);
+      if (clean_ways == kCleanWays || best->fragments.size() == 2) break;
+    }
+    if (best) take(std::move(*best));
+    return best.has_value();
+  }
+
+  // Along a surface of its own, past cracks too ragged to be joined; what of them lies along it, it stands for.
+  bool between_sides() {
+    const std::vector<Fragment> whole = cut_into_fragments(body_.detailed, {}, settings_);
+    for (const int smoothing : kSmoothings) {
+      TriMesh surface = unfolded_part(surfaces_.between_sides(smoothing));
+      TriMesh others = apart_from(sheets_, surface, kStandsFor * ligament_.grid->size());
+      std::optional<Parted> way = parted(whole, std::move(surface), others.triangle_count());
+      if (!way || !way->open.clean) continue;
+      cut_.inside = others.corners.empty() ? std::optional(TriMesh{}) : std::nullopt;
+      cut_.sheets = {std::move(others)};
+      cut_.shows_slits = false;
+      cut_.warnings = {fmt::format(
+          "the cracks about what was left to break are too ragged to be joined: the body is cut "
+          "along a surface of its own there, {:.3g} m coarse; a smaller resolution.crack shows it "
+          "finer",
+          ligament_.grid->size())};
+      take(std::move(*way));
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Parted {
+    std::vector<Fragment> fragments;
+    TriMesh surface;
+    std::size_t first;  // of its triangles, among the sources
+    OpenFragments open;
+  };
+
+  // None where there is no way through, or nothing but chips of the surfaces that cut comes off.
+  std::optional<Parted> parted(const std::vector<Fragment>& fragments, TriMesh surface,
+                               std::size_t first) const {
+    std::vector<Fragment> parts = parted_by(fragments, surface, first, settings_);
+    if (parts.size() < 2 || parts[1].volume < kLeastShareOfPart * ligament_.smaller_part) return std::nullopt;
+    OpenFragments open = open_all(parts, slit_width(body_));
+    return Parted{std::move(parts), std::move(surface), first, std::move(open)};
+  }
+
+  void take(Parted way) {
+    cut_.ligament = parting_faces(way.fragments, way.surface, way.first);
+    cut_.fragments = std::move(way.fragments);
+    cut_.opened = std::move(way.open.positions);
+  }
+
+  BodyCut& cut_;
+  const PreparedBody& body_;
+  FragmentSettings settings_;
+  const LastLigament& ligament_;
+  const TriMesh& sheets_;
+  LigamentSurfaces surfaces_;
+};
+
 }  // namespace
 
 double slit_width(const PreparedBody& body) {
@@ -111,28 +205,8 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run, Li
   const TriMesh all = join(cut.sheets);
   for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge, of)) {
     if (!breaks(ligament)) continue;
-    std::vector<Fragment> best;
-    TriMesh best_surface;
-    int clean_ways = 0;
-    const LigamentSurfaces surfaces(ligament, all);
-    for (const LigamentOverlap& overlap : kOverlaps) {
-      TriMesh surface = unfolded_part(surfaces.with(overlap));
-      std::vector<Fragment> parts =
-          parted_by(cut.fragments, surface, all.triangle_count(), fragment_settings(body, run));
-      if (parts.size() < 2 || parts[1].volume < kLeastShareOfPart * ligament.smaller_part) continue;
-      OpenFragments open = open_all(parts, slit_width(body));
-      if (open.clean) ++clean_ways;
-      if (best.empty() || (open.clean && (clean_ways == 1 || parts.size() < best.size()))) {
-        best = std::move(parts);
-        best_surface = std::move(surface);
-        cut.opened = std::move(open.positions);
-      }
-      if (clean_ways == kCleanWays || (clean_ways > 0 && best.size() == 2)) break;
-    }
-    if (clean_ways == 0) continue;
-    cut.ligament = parting_faces(best, best_surface, all.triangle_count());
-    cut.fragments = std::move(best);
-    return;
+    LigamentCut by(cut, body, run, ligament, all);
+    if (by.over_ends() || by.between_sides()) return;
   }
 }
 

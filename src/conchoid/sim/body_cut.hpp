@@ -20,6 +20,7 @@ struct BodyCut {
       inside;  ///< of the sheets: their part inside of the body; none where it was not found
   std::vector<IdVector<NodeId, Vec3>>
       opened;  ///< the fragments' nodes with slits open; empty where that was not tried
+  bool shows_slits = true;  ///< what of the sheets ends in the fragments; if not, they are as if it did not
   std::vector<std::string> warnings;
   bool parted() const { return fragments.size() > 1; }
 };
@@ -34,7 +35,8 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
 
 /// Goes on with a cut that leaves one piece: along the first of what is left to break (find_last_ligaments(), for the
 /// detailed body and these sheets) that `breaks` and parts the body; of the ways to lay its surface over the cracks,
-/// one whose pieces do not cross themselves once their slits are open, if there is one.
+/// one whose pieces do not cross themselves once their slits are open, if there is one; else along all of the surface
+/// between its two sides, which stands for the sheets near it.
 void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run, LigamentsOf of,
                   const std::function<bool(const LastLigament&)>& breaks);
 

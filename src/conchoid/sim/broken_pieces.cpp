@@ -34,6 +34,7 @@ void share_out(const Fragment& whole, std::vector<Fragment>& parts) {
   }
 }
 
+// The cracks that end in a piece, where its mesh does not show them as those that went on.
 TriMesh slits_of(const Fragment& piece) {
   std::vector<char> solid(piece.mesh.triangle_count(), 0);
   for (const TriId t : piece.unfinished.solid_face)
@@ -41,14 +42,16 @@ TriMesh slits_of(const Fragment& piece) {
   std::vector<TriId> slits;
   for (std::size_t t = 0; t < solid.size(); ++t)
     if (!solid[t]) slits.emplace_back(t);
-  return submesh(piece.mesh, slits);
+  return slits.empty() ? join(piece.unfinished.sheets) : submesh(piece.mesh, slits);
 }
 
 // A crack that ended in a piece is part of what broke it later: it is nearer to the piece's slits than to its
 // surface.
 void remove_slits(TriMesh& crack, const Fragment& piece) {
   if (piece.unfinished.solid.corners.empty()) return;
-  const ClosestPointTree slits(slits_of(piece)), surface(piece.unfinished.solid);
+  const TriMesh own = slits_of(piece);
+  if (own.corners.empty()) return;
+  const ClosestPointTree slits(own), surface(piece.unfinished.solid);
   std::vector<TriId> kept;
   for (std::size_t t = 0; t < crack.triangle_count(); ++t) {
     const Vec3 x = centroid(crack, TriId(t));

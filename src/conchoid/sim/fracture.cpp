@@ -322,8 +322,7 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
   const bool grown = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count() > before;
-  const bool moved = body->toughness.homogeneous() ? !steps.empty() : grown;
-  if (!moved && !new_crack)
+  if (!grown && !new_crack)
     stop = ligament_breaks(true) ? StopReason::separated : StopReason::arrested;
   else if (separated())
     stop = StopReason::separated;

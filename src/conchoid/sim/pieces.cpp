@@ -39,6 +39,14 @@ TriMesh trimmed_crack(const PreparedBody& body, const std::vector<TriMesh>& shee
   }
 }
 
+// Its surface, for cracks in it that it does not show.
+void keep_whole(Fragment& f) {
+  f.unfinished.solid = f.mesh;
+  f.unfinished.solid_face.clear();
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+    f.unfinished.solid_face.emplace_back(t);
+}
+
 }  // namespace
 
 TriMesh crack_surface(const Fracture& fracture) {
@@ -96,6 +104,7 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
     for (std::size_t i = begin; i < end; ++i) {
       Fragment& f = out.fragments[i];
       keep_solid(f);
+      if (!cut.shows_slits) keep_whole(f);
       f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
       if (cut.opened.empty())
         open_slits(f, slit_width(body));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -39,6 +40,21 @@ std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets,
   return band;
 }
 
+// Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side: nothing
+// would come off there.
+void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
+  UnionFind together(grid.cells());
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    for (int axis = 0; axis < 3 && grid.inside(c); ++axis)
+      if (const std::size_t d = grid.next(c, axis); grid.inside(d) && side[c] == side[d]) together.join(c, d);
+  std::vector<int> cells(grid.cells(), 0);
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    ++cells[together.root(c)];
+  for (std::size_t c = 0; c < grid.cells(); ++c)
+    if (grid.inside(c) && cells[together.root(c)] < kFewestCells)
+      side[c] = static_cast<std::int8_t>(-side[c]);
+}
+
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
   std::vector<Vec3> faces;
   for (std::size_t c = 0; c < grid.cells(); ++c)
@@ -68,6 +84,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
     for (std::size_t t = 0; t < crack.size(); ++t)
       crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == p;
     CellPartition partition = minimal_cut(*grid, crack, band);
+    remove_specks(*grid, partition.side);
     const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
     const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
     if (std::min(upper, lower) < kFewestCells) continue;

@@ -49,6 +49,9 @@ class LigamentSurfaces {
   /// Both arguments have to stay.
   LigamentSurfaces(const LastLigament& ligament, const TriMesh& sheets);
   TriMesh with(const LigamentOverlap& overlap) const;
+  /// All of the surface between the two sides, along the cracks as far as cells tell, so that it parts the body
+  /// without them: for cracks too ragged to be joined. Smoothed in so many passes; without any it does not cross itself.
+  TriMesh between_sides(int smoothing) const;
 
  private:
   const LastLigament& ligament_;

@@ -90,21 +90,28 @@ std::vector<std::int8_t> spread_outside(const CellGrid& grid, std::vector<std::i
 class SurfaceMaker {
  public:
   SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const BoxTree& tree,
-               const std::vector<std::int8_t>& side, const LigamentOverlap& overlap)
-      : grid_(*ligament.grid), overlap_(overlap), sheets_(sheets), tree_(tree), side_(side) {
+               const std::vector<std::int8_t>& side)
+      : grid_(*ligament.grid), ligament_(ligament), sheets_(sheets), tree_(tree), side_(side) {}
+
+  TriMesh over_ends(const LigamentOverlap& overlap) {
     near_.assign(grid_.cells(), false);
-    for (const Vec3& x : ligament.faces)
-      grid_.mark_near(grid_.place_of(x), overlap_.cells, near_);
+    for (const Vec3& x : ligament_.faces)
+      grid_.mark_near(grid_.place_of(x), overlap.cells, near_);
     // Wherever the cracks that part the two sides end: there they may not quite reach each other.
-    for (const Edge& e : boundary_edges(sheets))
-      grid_.mark_near(grid_.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b])), overlap_.cells,
+    for (const Edge& e : boundary_edges(sheets_))
+      grid_.mark_near(grid_.place_of(0.5 * (sheets_.positions[e.a] + sheets_.positions[e.b])), overlap.cells,
                       near_);
+    march();
+    place(overlap.offset);
+    smooth(kSmoothingRounds);
+    return std::move(mesh_);
   }
 
-  TriMesh run() {
+  TriMesh everywhere(int rounds) {
+    near_.assign(grid_.cells(), true);
     march();
-    place();
-    smooth();
+    place(0);
+    smooth(rounds);
     return std::move(mesh_);
   }
 
@@ -168,8 +175,8 @@ class SurfaceMaker {
   }
 
   // Nodes between cells that a crack parts lie beside it, on its upper side; towards the rim of the surface they
-  // go over to the other: so it crosses the crack there.
-  void place() {
+  // go over to the other: so it crosses the crack there. @param offset  × cell
+  void place(double offset) {
     on_rim_.assign(mesh_.node_count(), false);
     for (const Edge& e : boundary_edges(mesh_))
       on_rim_[e.a.index()] = on_rim_[e.b.index()] = true;
@@ -190,8 +197,7 @@ class SurfaceMaker {
       if (normal.dot(upper - lower) < 0) normal = -normal;
       across_[i] = normal;
       const double share = std::clamp(2 * from_rim[i] / kCrossingCells - 1, -1.0, 1.0);
-      mesh_.positions[NodeId(i)] =
-          lower + best * (upper - lower) + share * overlap_.offset * grid_.size() * normal;
+      mesh_.positions[NodeId(i)] = lower + best * (upper - lower) + share * offset * grid_.size() * normal;
     }
   }
 
@@ -211,13 +217,13 @@ class SurfaceMaker {
   }
 
   // To the middle of their neighbours: nodes beside a crack along it, those on the rim across the surface.
-  void smooth() {
+  void smooth(int rounds) {
     std::vector<std::set<NodeId>> around(mesh_.node_count());
     for (const auto& c : mesh_.corners)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
           if (k != l) around[c[k].index()].insert(c[l]);
-    for (int round = 0; round < kSmoothingRounds; ++round) {
+    for (int round = 0; round < rounds; ++round) {
       const IdVector<NodeId, Vec3> before = mesh_.positions;
       IdVector<NodeId, Vec3> normals(mesh_.node_count(), Vec3::Zero());
       for (const auto& c : mesh_.corners)
@@ -242,7 +248,7 @@ class SurfaceMaker {
   }
 
   const CellGrid& grid_;
-  LigamentOverlap overlap_;
+  const LastLigament& ligament_;
   const TriMesh& sheets_;
   const BoxTree& tree_;
   const std::vector<std::int8_t>& side_;
@@ -267,7 +273,11 @@ LigamentSurfaces::LigamentSurfaces(const LastLigament& ligament, const TriMesh& 
       side_(spread_outside(*ligament.grid, ligament.partition.side)) {}
 
 TriMesh LigamentSurfaces::with(const LigamentOverlap& overlap) const {
-  return SurfaceMaker(ligament_, sheets_, tree_, side_, overlap).run();
+  return SurfaceMaker(ligament_, sheets_, tree_, side_).over_ends(overlap);
+}
+
+TriMesh LigamentSurfaces::between_sides(int smoothing) const {
+  return SurfaceMaker(ligament_, sheets_, tree_, side_).everywhere(smoothing);
 }
 
 }  // namespace conchoid
