@@ -88,7 +88,7 @@ def evaluate(program, work, name, runs, armadillo):
         own = name.split()[0]
         if name in ("cube", "cylinder model", "bar"):
             beside.append(ROOT / "databases" / f"{own}.forest")
-        text = call(program, "forest", "evaluate", forest(program, work, "all"), "--runs", spec, "--json",
+        text = call(program, "forest", "evaluate", forest(program, work, "all"), "--runs", spec, "--noise-floor", "--json",
                     *(["--beside", ",".join(map(str, beside))] if beside else []))
         result.write_text(text)
     return json.loads(result.read_text())
@@ -104,8 +104,8 @@ def main():
     a = parser.parse_args()
     names = a.only.split(",") if a.only else ["cube", "cylinder model", "bar", *WORLD, "armadillo"]
     column = lambda s: f"{100 * s['surface_median']:.2f}, {100 * s['surface_largest']:.1f}, {s['frames_ratio']:.2f}, {s['lost']}"
-    print("| class | runs | steady | kept | stress | class in training | class left out | own database |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| class | runs | solved, changed | steady | kept | stress | class in training | class left out | own database |")
+    print("|---|---|---|---|---|---|---|---|---|")
     pooled = {}
     for name in names:
         for r in evaluate(a.program, a.work, name, a.runs, a.armadillo)["runs"]:
@@ -117,7 +117,8 @@ def main():
             continue
         without = next((s for m, s in scores.items() if m.startswith("without")), None)
         own = scores.get(name.split()[0])
-        cells = [column(scores[m]) for m in ("steady", "kept", "stress")]
+        cells = ["; ".join(f"{100 * s['surface_median']:.2f}" for m, s in scores.items() if m.startswith("solved, "))]
+        cells += [column(scores[m]) for m in ("steady", "kept", "stress")]
         cells += ["", column(scores["all"])] if name == "armadillo" else [column(scores["all"]), column(without)]
         print(f"| {name} | {scores['steady']['runs']} | " + " | ".join(cells) + f" | {column(own) if own else ''} |", flush=True)
     print("\n| all runs together | median | 90 % | largest | class left out is better in |\n|---|---|---|---|---|")

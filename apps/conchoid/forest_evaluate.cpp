@@ -25,6 +25,7 @@ struct EvaluateOptions {
   std::vector<std::string> beside;
   TrainingChoice choice;
   int first = 0, count = 0;  ///< 0: all
+  bool noise_floor = false;
 };
 
 void one_step(const EvaluateOptions& options, const Regressor& model, bool json) {
@@ -96,7 +97,7 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
                                  options.specification, spec.runs - 1));
   std::vector<std::int32_t> runs(static_cast<std::size_t>(count));
   std::iota(runs.begin(), runs.end(), options.first);
-  const WholeRuns result = whole_runs(spec, runs, methods);
+  const WholeRuns result = whole_runs(spec, runs, methods, {.noise_floor = options.noise_floor});
   print(json ? whole_runs_json(result) : whole_runs_text(result));
 }
 
@@ -149,6 +150,10 @@ void add_forest_evaluate(CLI::App& group, Invocation& invocation) {
                       "specification as for database generate: its runs are solved, predicted and compared");
   command->add_option("--beside", options->beside, "further files or names to put into the same table")
       ->delimiter(',');
+  command->add_flag(
+      "--noise-floor", options->noise_floor,
+      "with --runs: solve each run again with the load 0.5 % larger, turned by 0.5 degrees, r̄ a tenth "
+      "longer, and on other elements: how far that moves the crack is the least that counts");
   command->add_option("--first", options->first, "first run of the specification")
       ->check(CLI::Range(0, 10000000))
       ->capture_default_str();

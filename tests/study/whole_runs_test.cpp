@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <numbers>
+
+#include "conchoid/study/small_changes.hpp"
 
 namespace conchoid {
 namespace {
@@ -17,8 +21,8 @@ DatabaseSpec cubes() {
 
 TEST(WholeRuns, BoundaryElementsAgreeWithThemselvesAndClosedFormsDoNot) {
   const std::array<std::int32_t, 3> runs = {0, 1, 2};
-  const WholeRuns result =
-      whole_runs(cubes(), runs, {{"again", "bem", nullptr}, {"steady", "steady", nullptr}}, 2);
+  const WholeRuns result = whole_runs(
+      cubes(), runs, {{"again", "bem", nullptr}, {"steady", "steady", nullptr}}, {.least_frames = 2});
   ASSERT_FALSE(result.rows.empty());
   EXPECT_EQ(result.rows.size() / 2 + static_cast<std::size_t>(result.left_out), runs.size());
   for (const WholeRun& row : result.rows) {
@@ -42,9 +46,43 @@ TEST(WholeRuns, BoundaryElementsAgreeWithThemselvesAndClosedFormsDoNot) {
 
 TEST(WholeRuns, RunsThatAreTooShortAreLeftOutAndCounted) {
   const std::array<std::int32_t, 2> runs = {0, 1};
-  const WholeRuns result = whole_runs(cubes(), runs, {{"kept", "kept", nullptr}}, 1000);
+  const WholeRuns result = whole_runs(cubes(), runs, {{"kept", "kept", nullptr}}, {.least_frames = 1000});
   EXPECT_TRUE(result.rows.empty());
   EXPECT_EQ(result.left_out, 2);
+}
+
+// Each change of a scene is a run of its own; what it moves is more than nothing, and less than a closed form's error. On
+// other elements a crack may start elsewhere, or not at all.
+TEST(WholeRuns, TheNoiseFloorIsWhatSmallChangesMove) {
+  const std::array<std::int32_t, 2> runs = {0, 1};
+  const WholeRuns result =
+      whole_runs(cubes(), runs, {{"steady", "steady", nullptr}}, {.least_frames = 2, .noise_floor = true});
+  const auto score = scores(result);
+  const double closed_form = score.at({"", "steady"}).median;
+  for (const SmallChange& change : small_changes()) {
+    EXPECT_EQ(score.at({"", change.title}).runs, score.at({"", "steady"}).runs) << change.title;
+    EXPECT_GT(score.at({"", change.title}).median, 0) << change.title;
+    if (change.title.find("elements") == std::string::npos) {
+      EXPECT_LT(score.at({"", change.title}).median, 0.5 * closed_form) << change.title;
+    }
+  }
+}
+
+TEST(SmallChanges, ALoadIsTurnedByHalfADegreeAndStaysAsLarge) {
+  const DatabaseSpec spec = cubes();
+  const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
+  const PreparedRun run = prepare_run(spec, body, 0);
+  const auto changed = [&](std::size_t i) { return small_changes().at(i).change(run); };
+  const auto larger = changed(0), turned = changed(1), longer = changed(2);
+  ASSERT_TRUE(larger && turned && longer);
+  for (std::size_t c = 0; c < run.scene.boundary.size(); ++c) {
+    const Vec3& t = run.scene.boundary[c].value;
+    EXPECT_NEAR((larger->scene.boundary[c].value - 1.005 * t).norm(), 0, 1e-12 * t.norm());
+    const Vec3& u = turned->scene.boundary[c].value;
+    EXPECT_NEAR(u.norm(), t.norm(), 1e-12 * t.norm());
+    EXPECT_NEAR(std::acos(u.dot(t) / t.squaredNorm()) * 180 / std::numbers::pi, 0.5, 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(longer->body->crack_edge, 1.1 * body->crack_edge);
 }
 
 }  // namespace

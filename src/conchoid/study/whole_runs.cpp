@@ -11,6 +11,7 @@
 #include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/make_runs.hpp"
 #include "conchoid/sim/methods.hpp"
+#include "conchoid/study/small_changes.hpp"
 #include "conchoid/study/surface_distance.hpp"
 
 namespace conchoid {
@@ -59,21 +60,28 @@ double apart(const TriMesh& a, const TriMesh& b, double diagonal) {
 
 // None where boundary elements say nothing.
 std::vector<WholeRun> compared(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
-                               std::int32_t number, const std::vector<RunMethod>& methods, int least_frames) {
+                               std::int32_t number, const std::vector<RunMethod>& methods,
+                               const WholeRunSettings& settings) {
   std::vector<WholeRun> rows;
   try {
     const PreparedRun run = prepare_run(spec, body, number);
-    const Outcome solved = outcome_of(run, {"BEM", "bem", nullptr}, spec.exclusion.frame_limit);
-    if (solved.frames < least_frames || solved.stop == StopReason::frame_limit) return {};
+    const RunMethod bem{"BEM", "bem", nullptr};
+    const Outcome solved = outcome_of(run, bem, spec.exclusion.frame_limit);
+    if (solved.frames < settings.least_frames || solved.stop == StopReason::frame_limit) return {};
     const double diagonal = bounding_box(run.body->surface).diagonal();
-    for (const RunMethod& method : methods) {
+    const auto compare = [&](const std::string& title, const PreparedRun& made_of, const RunMethod& method) {
       throw_if_interrupted();
-      const Outcome made = outcome_of(run, method, 2 * solved.frames + 4);
+      const Outcome made = outcome_of(made_of, method, 2 * solved.frames + 4);
       const double distance = apart(solved.crack, made.crack, diagonal);
-      rows.push_back({number, run.record.body_class, method.title, made.stop, solved.stop, made.frames,
+      rows.push_back({number, run.record.body_class, title, made.stop, solved.stop, made.frames,
                       solved.frames, distance, distance * diagonal / bounding_box(solved.crack).diagonal(),
                       made.opening_seconds, solved.opening_seconds});
-    }
+    };
+    for (const RunMethod& method : methods)
+      compare(method.title, run, method);
+    for (const SmallChange& small : small_changes())
+      if (const auto changed = settings.noise_floor ? small.change(run) : std::nullopt)
+        compare(small.title, *changed, bem);
   } catch (const ComputationError&) {  // neither is a fault of a method: the run cannot be made
     rows.clear();
   } catch (const InputError&) {
@@ -91,13 +99,13 @@ double quantile(std::vector<double> values, double level) {
 }  // namespace
 
 WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
-                     const std::vector<RunMethod>& methods, int least_frames) {
+                     const std::vector<RunMethod>& methods, const WholeRunSettings& settings) {
   const auto body = spec.world ? nullptr : std::make_shared<const PreparedBody>(prepare(spec.scene));
   std::vector<std::vector<WholeRun>> of_run(runs.size());
   Progress progress("runs", runs.size());
   parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
     throw_if_interrupted();
-    of_run[i] = compared(spec, body, runs[i], methods, least_frames);
+    of_run[i] = compared(spec, body, runs[i], methods, settings);
     progress.advance();
   });
   WholeRuns out;

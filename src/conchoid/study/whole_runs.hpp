@@ -22,7 +22,7 @@ struct RunMethod {
 /// A run by one method beside the same solved by boundary elements. Both end with the first separation.
 struct WholeRun {
   std::int32_t run = 0;
-  std::string body_class, title;
+  std::string body_class, title;  ///< of the method, or of a small change
   StopReason stop = StopReason::intact, solved_stop = StopReason::intact;
   int frames = 0, solved_frames = 0;
   double surface =
@@ -38,8 +38,13 @@ struct WholeRuns {
   std::vector<WholeRun> rows;  ///< run after run, methods in their order
   int left_out = 0;            ///< runs
 };
+struct WholeRunSettings {
+  int least_frames = 4;
+  bool noise_floor =
+      false;  ///< boundary elements on the small changes of each scene, too (small_changes.hpp)
+};
 WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
-                     const std::vector<RunMethod>& methods, int least_frames = 4);
+                     const std::vector<RunMethod>& methods, const WholeRunSettings& settings = {});
 
 /// What a method does over the runs of a class.
 struct WholeRunScore {
