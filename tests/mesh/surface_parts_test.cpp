@@ -19,6 +19,17 @@ TriMesh hourglass() {
   return mesh;
 }
 
+TEST(SplitParts, AreTheMeshesThatWereJoined) {
+  const std::vector<TriMesh> parts{hourglass(), disc_crack(Vec3(5, 0, 0), Vec3::UnitZ(), 1, {.edge = 0.3})};
+  const std::vector<TriMesh> split = split_parts(join(parts));
+  ASSERT_EQ(split.size(), parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_EQ(split[i].positions, parts[i].positions);
+    EXPECT_EQ(split[i].corners, parts[i].corners);
+  }
+  EXPECT_TRUE(split_parts({}).empty());
+}
+
 TEST(SplitFans, PartsThatTouchAtAPointGetBoundariesOfTheirOwn) {
   const TriMesh split = split_fans(hourglass(), 0.1);
   ASSERT_EQ(split.node_count(), 8u);

@@ -53,11 +53,11 @@ TEST(BodyCut, ASurfaceBetweenTheSidesPartsTheBodyAlone) {
   const TriMesh body = cube().detailed, sheet = ragged_sheet(random, 0, Vec3::Zero());
   const auto found = find_last_ligaments(body, sheet, kEdge);
   ASSERT_EQ(found.size(), 1u);
-  for (const int smoothing : {0, 5, 20}) {
-    const TriMesh surface = LigamentSurfaces(found[0], sheet).between_sides(smoothing);
+  for (const DividingSurface& how : {DividingSurface{0, false}, {5, false}, {20, false}, {20, true}}) {
+    const TriMesh surface = LigamentSurfaces(found[0], sheet).between_sides(how);
     EXPECT_TRUE(self_intersections(surface, 1).empty());
     for (const Vec3& x : surface.positions)
-      EXPECT_LT(std::abs(x.z() - 0.013), x.x() < 0.36 ? 1e-9 : 0.1 * kEdge) << smoothing;
+      EXPECT_LT(std::abs(x.z() - 0.013), x.x() < 0.36 ? 1e-9 : 0.1 * kEdge) << how.smoothing << how.halved;
     const auto pieces = cut_into_fragments(body, {surface}, {});
     ASSERT_EQ(pieces.size(), 2u);
     EXPECT_NEAR(pieces[1].volume, 0.487, 2e-3);

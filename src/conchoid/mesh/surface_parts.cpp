@@ -65,6 +65,18 @@ void find_depths(const TriMesh& mesh, std::vector<SurfacePart>& parts) {
 
 }  // namespace
 
+std::vector<TriMesh> split_parts(const TriMesh& mesh) {
+  const std::vector<int> part = connected_parts(mesh);
+  std::vector<TriMesh> parts(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
+  std::vector<NodeId> moved(mesh.node_count());
+  for (std::size_t i = 0; i < mesh.node_count(); ++i)
+    moved[i] = parts[part[i]].positions.add(mesh.positions[NodeId(i)]);
+  for (const auto& c : mesh.corners)
+    parts[part[c[0].index()]].corners.push_back(
+        {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+  return parts;
+}
+
 TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles) {
   TriMesh part;
   IdVector<NodeId, NodeId> ids(mesh.node_count());

@@ -21,6 +21,9 @@ struct SurfacePart {
 /// The parts of a surface in the order of their first triangles.
 std::vector<SurfacePart> surface_parts(const TriMesh& mesh);
 
+/// The connected parts as meshes of their own: nodes and triangles in the order of the surface.
+std::vector<TriMesh> split_parts(const TriMesh& mesh);
+
 /// Some triangles as a mesh of their own; nodes in the order in which they come up.
 TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles);
 

@@ -21,8 +21,8 @@ constexpr std::array<LigamentOverlap, 4> kOverlaps{{{3.5, 0.25}, {3.5, -0.25}, {
 // the part: the volumes are counted in cells.
 constexpr double kLeastShareOfPart = 0.5;
 
-// Passes over the surface between the two sides, tried in turn.
-constexpr std::array<int, 3> kSmoothings{20, 5, 0};
+// Likewise, where none of these will do.
+constexpr std::array<DividingSurface, 4> kDividingSurfaces{{{20, true}, {20, false}, {5, false}, {0, false}}};
 constexpr double kStandsFor = 2;  // × cell: the parts of cracks within are its own
 
 constexpr int kCleanWays = 2;  // tried, where they part off chips as well
@@ -122,8 +122,8 @@ class LigamentCut {
   // Along a surface of its own, past cracks too ragged to be joined; what of them lies along it, it stands for.
   bool between_sides() {
     const std::vector<Fragment> whole = cut_into_fragments(body_.detailed, {}, settings_);
-    for (const int smoothing : kSmoothings) {
-      TriMesh surface = unfolded_part(surfaces_.between_sides(smoothing));
+    for (const DividingSurface& how : kDividingSurfaces) {
+      TriMesh surface = unfolded_part(surfaces_.between_sides(how));
       TriMesh others = apart_from(sheets_, surface, kStandsFor * ligament_.grid->size());
       std::optional<Parted> way = parted(whole, std::move(surface), others.triangle_count());
       if (!way || !way->open.clean) continue;

@@ -16,6 +16,7 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
 #include "conchoid/intersect/unfold.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/clamp_edges.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/ligament_rule.hpp"
@@ -473,15 +474,7 @@ const std::vector<TriMesh>& Fracture::State::visible_sheets() const {
 }
 
 std::vector<TriMesh> Fracture::State::unfold_visible_sheets() const {
-  const TriMesh all = swept_surface();
-  const std::vector<int> part = connected_parts(all);
-  std::vector<TriMesh> apart(part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end()));
-  std::vector<NodeId> moved(all.node_count());
-  for (std::size_t i = 0; i < all.node_count(); ++i)
-    moved[i] = apart[part[i]].positions.add(all.positions[NodeId(i)]);
-  for (const auto& c : all.corners)
-    apart[part[c[0].index()]].corners.push_back(
-        {moved[c[0].index()], moved[c[1].index()], moved[c[2].index()]});
+  std::vector<TriMesh> apart = split_parts(swept_surface());
   parallel_for(apart.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       apart[i] = unfolded_part(apart[i]);

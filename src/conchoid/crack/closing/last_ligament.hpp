@@ -36,6 +36,12 @@ struct LigamentOverlap {
   double offset = 0.25;  ///< × cell, from the crack towards the upper side; beyond the crack at its own rim
 };
 
+/// How the whole surface between the two sides is made. Neither smoothed nor halved it does not cross itself.
+struct DividingSurface {
+  int smoothing = 0;    ///< passes
+  bool halved = false;  ///< triangles of half the size, which lie on the cracks more closely
+};
+
 /// The ligament's broken surface, ready to cut the body together with the sheets: smoothed between the cracks it
 /// joins, laid over what is near their fronts, crossing their faces once behind them and the body's surface, so
 /// that nothing leaks between, unless the cracks are uneven within a cell; then another overlap may do. What of it
@@ -50,8 +56,8 @@ class LigamentSurfaces {
   LigamentSurfaces(const LastLigament& ligament, const TriMesh& sheets);
   TriMesh with(const LigamentOverlap& overlap) const;
   /// All of the surface between the two sides, along the cracks as far as cells tell, so that it parts the body
-  /// without them: for cracks too ragged to be joined. Smoothed in so many passes; without any it does not cross itself.
-  TriMesh between_sides(int smoothing) const;
+  /// without them: for cracks too ragged to be joined.
+  TriMesh between_sides(const DividingSurface& how) const;
 
  private:
   const LastLigament& ligament_;

@@ -107,11 +107,12 @@ class SurfaceMaker {
     return std::move(mesh_);
   }
 
-  TriMesh everywhere(int rounds) {
+  TriMesh everywhere(const DividingSurface& how) {
     near_.assign(grid_.cells(), true);
     march();
     place(0);
-    smooth(rounds);
+    smooth(how.smoothing);
+    if (how.halved) halve();
     return std::move(mesh_);
   }
 
@@ -184,21 +185,50 @@ class SurfaceMaker {
     across_.assign(mesh_.node_count(), Vec3::Zero());
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const Vec3 upper = grid_.center(links_[i].first), lower = grid_.center(links_[i].second);
-      const Box box{upper.cwiseMin(lower), upper.cwiseMax(lower)};
-      double best = 2;
-      Vec3 normal = Vec3::Zero();
-      for (const TriId t : tree_.overlapping(box))
-        if (const auto s = passes(lower, upper, sheets_.triangle(t));
-            s && std::abs(*s - 0.5) < std::abs(best - 0.5)) {
-          best = *s;
-          normal = unit_normal(sheets_, t);
-        }
-      if (best > 1) continue;
-      if (normal.dot(upper - lower) < 0) normal = -normal;
-      across_[i] = normal;
+      const std::optional<Crossing> crack = crossing(lower, upper);
+      if (!crack) continue;
+      across_[i] = crack->normal;
       const double share = std::clamp(2 * from_rim[i] / kCrossingCells - 1, -1.0, 1.0);
-      mesh_.positions[NodeId(i)] = lower + best * (upper - lower) + share * offset * grid_.size() * normal;
+      mesh_.positions[NodeId(i)] =
+          lower + crack->depth * (upper - lower) + share * offset * grid_.size() * crack->normal;
     }
+  }
+
+  // Where a → b passes through a crack: that nearest to the middle. The normal points along.
+  struct Crossing {
+    double depth;
+    Vec3 normal;
+  };
+  std::optional<Crossing> crossing(const Vec3& a, const Vec3& b) const {
+    std::optional<Crossing> best;
+    for (const TriId t : tree_.overlapping({a.cwiseMin(b), a.cwiseMax(b)}))
+      if (const auto s = passes(a, b, sheets_.triangle(t));
+          s && (!best || std::abs(*s - 0.5) < std::abs(best->depth - 0.5)))
+        best = {*s, unit_normal(sheets_, t)};
+    if (best && best->normal.dot(b - a) < 0) best->normal *= -1;
+    return best;
+  }
+
+  // Every edge, the new nodes between two beside a crack on it.
+  void halve() {
+    std::map<Edge, NodeId> middles;
+    const auto middle = [&](NodeId a, NodeId b) {
+      const auto [at, is_new] = middles.try_emplace(Edge(a, b));
+      if (!is_new) return at->second;
+      Vec3 x = 0.5 * (mesh_.positions[a] + mesh_.positions[b]);
+      const Vec3 reach = 0.25 * grid_.size() * (across_[a.index()] + across_[b.index()]);
+      if (!across_[a.index()].isZero(0) && !across_[b.index()].isZero(0))
+        if (const auto crack = crossing(x - reach, x + reach)) x += (2 * crack->depth - 1) * reach;
+      return at->second = mesh_.positions.add(x);
+    };
+    TriMesh halves;
+    for (const auto& [a, b, c] : mesh_.corners) {
+      const NodeId d = middle(a, b), e = middle(b, c), f = middle(c, a);
+      for (const auto& corners :
+           {std::array{a, d, f}, std::array{d, b, e}, std::array{f, e, c}, std::array{d, e, f}})
+        halves.corners.push_back(corners);
+    }
+    mesh_.corners = std::move(halves.corners);
   }
 
   // Up to kCrossingCells, before anything is placed.
@@ -276,8 +306,8 @@ TriMesh LigamentSurfaces::with(const LigamentOverlap& overlap) const {
   return SurfaceMaker(ligament_, sheets_, tree_, side_).over_ends(overlap);
 }
 
-TriMesh LigamentSurfaces::between_sides(int smoothing) const {
-  return SurfaceMaker(ligament_, sheets_, tree_, side_).everywhere(smoothing);
+TriMesh LigamentSurfaces::between_sides(const DividingSurface& how) const {
+  return SurfaceMaker(ligament_, sheets_, tree_, side_).everywhere(how);
 }
 
 }  // namespace conchoid
