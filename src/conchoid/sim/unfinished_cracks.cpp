@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
-constexpr double kLeastArea = 1;    // × r̄²: of what goes on
+constexpr double kRagged =
+    0.4;  // × r̄: so near to a face that stands for ragged cracks, all of them are along it, whatever their normals
+constexpr double kLeastArea = 1;  // × r̄²: of what goes on
 constexpr double kLeastDepth =
     1;  // × r̄: how deep that goes; elements do not resolve what lies nearer to the surface
 constexpr double kLift = 0.15;  // × r̄: to which it leaves such a face
@@ -41,7 +43,8 @@ class SheetInPiece {
         solid_(solid),
         faces_(cut_faces(piece, solid)),
         tree_(faces_),
-        crack_edge_(crack_edge) {
+        crack_edge_(crack_edge),
+        shows_slits_(solid.triangle_count() < piece.mesh.triangle_count()) {
     IdVector<NodeId, Vec3> normals(mesh_.node_count(), Vec3::Zero());
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
       for (const NodeId n : mesh_.corners[TriId(t)])
@@ -73,6 +76,7 @@ class SheetInPiece {
   bool lies_along(const Vec3& x, const Vec3& normal) const {
     if (faces_.corners.empty()) return false;
     const auto hit = tree_.closest(x);
+    if (!shows_slits_ && hit.squared_distance < kRagged * kRagged * crack_edge_ * crack_edge_) return true;
     const double near = kNearFace * crack_edge_;
     return hit.squared_distance < near * near &&
            std::abs(unit_normal(faces_, hit.triangle).dot(normal)) >= kAlongFace * normal.norm();
@@ -104,6 +108,7 @@ class SheetInPiece {
   TriMesh faces_;
   ClosestPointTree tree_;
   double crack_edge_;
+  bool shows_slits_;  // if not, the cut went past ragged cracks (sim/body_cut)
   IdVector<NodeId, char> along_, deep_;
 };
 
