@@ -60,15 +60,6 @@ void remove_slits(TriMesh& crack, const Fragment& piece) {
   crack = submesh(crack, kept);
 }
 
-void append(TriMesh& mesh, const TriMesh& more) {
-  const std::size_t first = mesh.node_count();
-  for (const Vec3& x : more.positions)
-    mesh.positions.push_back(x);
-  for (const auto& c : more.corners)
-    mesh.corners.push_back(
-        {NodeId(c[0].index() + first), NodeId(c[1].index() + first), NodeId(c[2].index() + first)});
-}
-
 }  // namespace
 
 BrokenPieces::BrokenPieces(std::shared_ptr<const PreparedBody> body, Pieces pieces, const OutputSpec& output)
@@ -102,7 +93,7 @@ void BrokenPieces::trace_back(Fragment& part, const Fragment& parent) const {
 std::size_t BrokenPieces::replace(std::size_t id, Pieces parts) {
   const std::size_t first = entries_.size(), count = sheet_triangles(parts.fragments);
   remove_slits(all_.crack, entries_[id].fragment);
-  append(all_.crack, parts.crack);
+  all_.crack = join({all_.crack, parts.crack});
   all_.warnings.insert(all_.warnings.end(), parts.warnings.begin(), parts.warnings.end());
   share_out(entries_[id].fragment, parts.fragments);
   for (Fragment& part : parts.fragments) {
