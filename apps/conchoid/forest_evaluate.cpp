@@ -25,7 +25,8 @@ struct EvaluateOptions {
   std::vector<std::string> beside;
   TrainingChoice choice;
   int first = 0, count = 0;  ///< 0: all
-  bool noise_floor = false;
+  WholeRunSettings whole;
+  std::vector<double> tolerances;
 };
 
 void one_step(const EvaluateOptions& options, const Regressor& model, bool json) {
@@ -38,15 +39,17 @@ void one_step(const EvaluateOptions& options, const Regressor& model, bool json)
 
 std::string whole_runs_text(const WholeRuns& runs) {
   std::string text = fmt::format(
-      "{} runs left out: too short, or not to be computed\n{:<12} {:<24} {:>4} {:>9} {:>9} {:>9} {:>7} {:>5}",
-      runs.left_out, "class", "method", "runs", "median", "95 %", "largest", "frames", "lost");
+      "{} runs left out: too short, or not to be computed\n{:<12} {:<24} {:>4} {:>9} {:>9} {:>9} {:>7} {:>5} "
+      "{:>8}",
+      runs.left_out, "class", "method", "runs", "median", "95 %", "largest", "frames", "lost", "openings");
   for (const auto& [key, score] : scores(runs))
-    text += fmt::format("\n{:<12} {:<24} {:>4} {:>8.2f}% {:>8.2f}% {:>8.2f}% {:>7.2f} {:>5}",
+    text += fmt::format("\n{:<12} {:<24} {:>4} {:>8.2f}% {:>8.2f}% {:>8.2f}% {:>7.2f} {:>5} {:>8.2f}",
                         key.first.empty() ? "all" : key.first, key.second, score.runs, 100 * score.median,
-                        100 * score.p95, 100 * score.largest, score.frames_ratio, score.lost);
+                        100 * score.p95, 100 * score.largest, score.frames_ratio, score.lost,
+                        score.opening_ratio);
   return text +
          "\nmean distance of the crack surface from the solved one over the body's diagonal; frames over "
-         "those solved, median; runs at the frame limit";
+         "those solved, median; runs at the frame limit; seconds of finding openings over those of solving";
 }
 
 std::string whole_runs_json(const WholeRuns& runs) {
@@ -61,7 +64,8 @@ std::string whole_runs_json(const WholeRuns& runs) {
                               {"surface_p95", score.p95},
                               {"surface_largest", score.largest},
                               {"frames_ratio", score.frames_ratio},
-                              {"lost", score.lost}});
+                              {"lost", score.lost},
+                              {"opening_ratio", score.opening_ratio}});
   json["runs"] = nlohmann::json::array();
   for (const WholeRun& r : runs.rows)
     json["runs"].push_back({{"run", r.run},
@@ -81,8 +85,10 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
   std::vector<std::unique_ptr<Regressor>> others;
   std::vector<RunMethod> methods;
   const auto add = [&](const std::string& file, const Regressor& regressor) {
-    methods.push_back(
-        {std::filesystem::path(file).stem().string(), std::string(regressor.name()), &regressor});
+    const std::string title = std::filesystem::path(file).stem().string();
+    methods.push_back({title, std::string(regressor.name()), &regressor});
+    for (const double tolerance : options.tolerances)
+      methods.push_back({fmt::format("{}, hybrid {}", title, tolerance), "hybrid", &regressor, tolerance});
   };
   for (const char* closed_form : {"steady", "kept", "stress"})
     methods.push_back({closed_form, closed_form, nullptr});
@@ -97,7 +103,7 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
                                  options.specification, spec.runs - 1));
   std::vector<std::int32_t> runs(static_cast<std::size_t>(count));
   std::iota(runs.begin(), runs.end(), options.first);
-  const WholeRuns result = whole_runs(spec, runs, methods, {.noise_floor = options.noise_floor});
+  const WholeRuns result = whole_runs(spec, runs, methods, options.whole);
   print(json ? whole_runs_json(result) : whole_runs_text(result));
 }
 
@@ -151,9 +157,17 @@ void add_forest_evaluate(CLI::App& group, Invocation& invocation) {
   command->add_option("--beside", options->beside, "further files or names to put into the same table")
       ->delimiter(',');
   command->add_flag(
-      "--noise-floor", options->noise_floor,
+      "--noise-floor", options->whole.noise_floor,
       "with --runs: solve each run again with the load 0.5 % larger, turned by 0.5 degrees, r̄ a tenth "
       "longer, and on other elements: how far that moves the crack is the least that counts");
+  command
+      ->add_option("--tolerance", options->tolerances,
+                   "with --runs: hybrid runs of every regressor with these tolerances, too")
+      ->delimiter(',')
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--load", options->whole.load, "with --runs: times the load of the specification")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--first", options->first, "first run of the specification")
       ->check(CLI::Range(0, 10000000))
       ->capture_default_str();

@@ -44,6 +44,36 @@ TEST(WholeRuns, BoundaryElementsAgreeWithThemselvesAndClosedFormsDoNot) {
   EXPECT_EQ(scores(result).at({"", "again"}).runs, score.runs);
 }
 
+// A hybrid run solves what it does not dare to predict: with a tolerance of nothing all of it.
+TEST(WholeRuns, AHybridRunOfNoToleranceIsTheSolvedOne) {
+  const std::array<std::int32_t, 1> runs = {1};
+  const WholeRuns result = whole_runs(
+      cubes(), runs,
+      {{"kept", "kept", nullptr}, {"0", "hybrid", nullptr, 0.0}, {"0.02", "hybrid", nullptr, 0.02}},
+      {.least_frames = 2});
+  const auto score = scores(result);
+  EXPECT_NEAR(score.at({"cube", "0"}).largest, 0, 1e-12);
+  EXPECT_GT(score.at({"cube", "kept"}).median, score.at({"cube", "0.02"}).median);
+  EXPECT_LT(score.at({"cube", "kept"}).opening_ratio, score.at({"cube", "0"}).opening_ratio);
+}
+
+// A tenth of a load that breaks the cube opens no crack.
+TEST(WholeRuns, TheLoadOfASpecificationIsMultiplied) {
+  const DatabaseSpec spec = cubes();
+  const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
+  const PreparedRun run = prepare_run(spec, body, 0), more = with_load(run, 2.5);
+  for (std::size_t c = 0; c < run.scene.boundary.size(); ++c)
+    EXPECT_EQ(more.scene.boundary[c].value, Vec3(2.5 * run.scene.boundary[c].value));
+  const std::array<std::int32_t, 1> runs = {0};
+  const WholeRuns stronger =
+                      whole_runs(spec, runs, {{"again", "bem", nullptr}}, {.least_frames = 2, .load = 2.5}),
+                  weaker =
+                      whole_runs(spec, runs, {{"again", "bem", nullptr}}, {.least_frames = 2, .load = 0.1});
+  ASSERT_EQ(stronger.rows.size(), 1U);
+  EXPECT_NEAR(stronger.rows[0].surface, 0, 1e-12);
+  EXPECT_EQ(weaker.left_out, 1);
+}
+
 TEST(WholeRuns, RunsThatAreTooShortAreLeftOutAndCounted) {
   const std::array<std::int32_t, 2> runs = {0, 1};
   const WholeRuns result = whole_runs(cubes(), runs, {{"kept", "kept", nullptr}}, {.least_frames = 1000});

@@ -12,7 +12,7 @@ constexpr double kLoad = 1.005, kEdge = 1.1, kElements = 1.1;
 constexpr double kTurn = 0.5 * std::numbers::pi / 180;
 
 template <class Map>
-PreparedRun with_loads(PreparedRun run, const Map& map) {
+PreparedRun with_mapped_loads(PreparedRun run, const Map& map) {
   for (BoundaryCondition& c : run.scene.boundary)
     for (Vec3* v : {&c.value, &c.free_value, &c.moment, &c.twist})
       *v = map(*v);
@@ -20,10 +20,7 @@ PreparedRun with_loads(PreparedRun run, const Map& map) {
 }
 
 PreparedRun larger_load(const PreparedRun& of) {
-  PreparedRun run = with_loads(of, [](const Vec3& v) -> Vec3 { return kLoad * v; });
-  for (BoundaryCondition& c : run.scene.boundary)
-    c.pressure *= kLoad;
-  return run;
+  return with_load(of, kLoad);
 }
 
 // None where all that acts is pressure.
@@ -36,7 +33,7 @@ std::optional<PreparedRun> turned_load(const PreparedRun& of) {
   Eigen::Index least = 0;
   first.cwiseAbs().minCoeff(&least);
   const Vec3 axis = cross(first, Vec3::Unit(least)).normalized();
-  return with_loads(of, [&](const Vec3& v) -> Vec3 {  // Rodrigues' formula
+  return with_mapped_loads(of, [&](const Vec3& v) -> Vec3 {  // Rodrigues' formula
     return std::cos(kTurn) * v + std::sin(kTurn) * cross(axis, v) +
            (1 - std::cos(kTurn)) * axis.dot(v) * axis;
   });
@@ -60,6 +57,13 @@ std::optional<PreparedRun> other_mesh(const PreparedRun& of) {
 }
 
 }  // namespace
+
+PreparedRun with_load(const PreparedRun& of, double factor) {
+  PreparedRun run = with_mapped_loads(of, [&](const Vec3& v) -> Vec3 { return factor * v; });
+  for (BoundaryCondition& c : run.scene.boundary)
+    c.pressure *= factor;
+  return run;
+}
 
 const std::vector<SmallChange>& small_changes() {
   static const std::vector<SmallChange> changes{{"solved, load + 0.5 %", larger_load},

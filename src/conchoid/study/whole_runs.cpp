@@ -34,11 +34,12 @@ class OpeningClock : public FractureObserver {
 };
 
 Outcome outcome_of(const PreparedRun& run, const RunMethod& how, int frames) {
-  const OpeningMethod& method = checked_method(how.method, how.regressor);
+  const OpeningMethod& method = checked_method(how.method, how.regressor, how.tolerance);
   BreakupSettings settings{BreakupSettings::After::stop};
   settings.source = [&](const PreparedBody& body) -> MakeOpeningSource {
     return [&](BemOpening& bem) {
-      return method.make({{bem, body.material, body, sif_settings(run.scene.run), 0}, how.regressor});
+      return method.make(
+          {{bem, body.material, body, sif_settings(run.scene.run), 0, how.tolerance}, how.regressor});
     };
   };
   Breakup breakup(run.scene, run.body, settings);
@@ -64,7 +65,7 @@ std::vector<WholeRun> compared(const DatabaseSpec& spec, const std::shared_ptr<c
                                const WholeRunSettings& settings) {
   std::vector<WholeRun> rows;
   try {
-    const PreparedRun run = prepare_run(spec, body, number);
+    const PreparedRun run = with_load(prepare_run(spec, body, number), settings.load);
     const RunMethod bem{"BEM", "bem", nullptr};
     const Outcome solved = outcome_of(run, bem, spec.exclusion.frame_limit);
     if (solved.frames < settings.least_frames || solved.stop == StopReason::frame_limit) return {};
@@ -124,16 +125,20 @@ std::map<std::pair<std::string, std::string>, WholeRunScore> scores(const WholeR
   std::map<std::pair<std::string, std::string>, WholeRunScore> out;
   for (const auto& [key, rows] : groups) {
     std::vector<double> surface, ratio;
+    double seconds = 0, solved_seconds = 0;
     WholeRunScore& score = out[key];
     for (const WholeRun* row : rows) {
       surface.push_back(row->surface);
       ratio.push_back(static_cast<double>(row->frames) / row->solved_frames);
+      seconds += row->seconds;
+      solved_seconds += row->solved_seconds;
       score.lost += row->stop == StopReason::frame_limit ? 1 : 0;
     }
     score.runs = static_cast<int>(rows.size());
     score.median = statistics(surface).median;
     score.p95 = quantile(surface, 0.95);
     score.largest = statistics(surface).maximum;
+    score.opening_ratio = seconds / solved_seconds;
     score.frames_ratio = statistics(ratio).median;
   }
   return out;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct RunMethod {
   std::string title;   ///< in tables
   std::string method;  ///< by name
   const Regressor* regressor = nullptr;
+  std::optional<double> tolerance = {};  ///< of hybrid runs (sim/methods.hpp)
 };
 
 /// A run by one method beside the same solved by boundary elements. Both end with the first separation.
@@ -40,6 +42,7 @@ struct WholeRuns {
 };
 struct WholeRunSettings {
   int least_frames = 4;
+  double load = 1;  ///< times that of the specification
   bool noise_floor =
       false;  ///< boundary elements on the small changes of each scene, too (small_changes.hpp)
 };
@@ -51,6 +54,7 @@ struct WholeRunScore {
   int runs = 0;
   double median = 0, p95 = 0, largest = 0;  ///< of WholeRun::surface
   double frames_ratio = 0;                  ///< median of frames / solved frames
+  double opening_ratio = 0;                 ///< seconds / solved seconds, both summed over the runs
   int lost = 0;  ///< runs at the frame limit that boundary elements ended otherwise
 };
 /// By class and title; the class "" is all of them together.
