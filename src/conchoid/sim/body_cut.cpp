@@ -121,15 +121,16 @@ class LigamentCut {
 
   // Along a surface of its own, past cracks too ragged to be joined; what of them lies along it, it stands for.
   bool between_sides() {
+    const double stands_for = kStandsFor * ligament_.grid->size();
     const std::vector<Fragment> whole = cut_into_fragments(body_.detailed, {}, settings_);
     for (const DividingSurface& how : kDividingSurfaces) {
       TriMesh surface = unfolded_part(surfaces_.between_sides(how));
-      TriMesh others = apart_from(sheets_, surface, kStandsFor * ligament_.grid->size());
+      TriMesh others = apart_from(sheets_, surface, stands_for);
       std::optional<Parted> way = parted(whole, std::move(surface), others.triangle_count());
       if (!way || !way->open.clean) continue;
       cut_.inside = others.corners.empty() ? std::optional(TriMesh{}) : std::nullopt;
       cut_.sheets = {std::move(others)};
-      cut_.shows_slits = false;
+      cut_.stands_for = stands_for;
       cut_.warnings = {fmt::format(
           "the cracks about what was left to break are too ragged to be joined: the body is cut "
           "along a surface of its own there, {:.3g} m coarse; a smaller resolution.crack shows it "

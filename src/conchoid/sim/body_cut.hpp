@@ -20,7 +20,9 @@ struct BodyCut {
       inside;  ///< of the sheets: their part inside of the body; none where it was not found
   std::vector<IdVector<NodeId, Vec3>>
       opened;  ///< the fragments' nodes with slits open; empty where that was not tried
-  bool shows_slits = true;  ///< what of the sheets ends in the fragments; if not, they are as if it did not
+  double stands_for =
+      0;  ///< [m], beyond 0: a surface of its own has cut, for all cracks so near to it; what ends in
+          ///< the fragments they do not show then
   std::vector<std::string> warnings;
   bool parted() const { return fragments.size() > 1; }
 };

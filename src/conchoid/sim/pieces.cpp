@@ -104,8 +104,8 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
     for (std::size_t i = begin; i < end; ++i) {
       Fragment& f = out.fragments[i];
       keep_solid(f);
-      if (!cut.shows_slits) keep_whole(f);
-      f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge);
+      if (cut.stands_for > 0) keep_whole(f);
+      f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge, cut.stands_for);
       if (cut.opened.empty())
         open_slits(f, slit_width(body));
       else

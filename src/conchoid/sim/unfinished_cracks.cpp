@@ -16,9 +16,7 @@ namespace {
 
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
-constexpr double kRagged =
-    0.4;  // × r̄: so near to a face that stands for ragged cracks, all of them are along it, whatever their normals
-constexpr double kLeastArea = 1;  // × r̄²: of what goes on
+constexpr double kLeastArea = 1;    // × r̄²: of what goes on
 constexpr double kLeastDepth =
     1;  // × r̄: how deep that goes; elements do not resolve what lies nearer to the surface
 constexpr double kLift = 0.15;  // × r̄: to which it leaves such a face
@@ -38,13 +36,14 @@ TriMesh cut_faces(const Fragment& piece, const TriMesh& solid) {
 // A sheet as it goes on in the piece.
 class SheetInPiece {
  public:
-  SheetInPiece(const CrackSheet& sheet, const Fragment& piece, const TriMesh& solid, double crack_edge)
+  SheetInPiece(const CrackSheet& sheet, const Fragment& piece, const TriMesh& solid, double crack_edge,
+               double stands_for)
       : mesh_(sheet.mesh),
         solid_(solid),
         faces_(cut_faces(piece, solid)),
         tree_(faces_),
         crack_edge_(crack_edge),
-        shows_slits_(solid.triangle_count() < piece.mesh.triangle_count()) {
+        stands_for_(stands_for) {
     IdVector<NodeId, Vec3> normals(mesh_.node_count(), Vec3::Zero());
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
       for (const NodeId n : mesh_.corners[TriId(t)])
@@ -76,7 +75,7 @@ class SheetInPiece {
   bool lies_along(const Vec3& x, const Vec3& normal) const {
     if (faces_.corners.empty()) return false;
     const auto hit = tree_.closest(x);
-    if (!shows_slits_ && hit.squared_distance < kRagged * kRagged * crack_edge_ * crack_edge_) return true;
+    if (hit.squared_distance < stands_for_ * stands_for_) return true;
     const double near = kNearFace * crack_edge_;
     return hit.squared_distance < near * near &&
            std::abs(unit_normal(faces_, hit.triangle).dot(normal)) >= kAlongFace * normal.norm();
@@ -107,8 +106,7 @@ class SheetInPiece {
   const TriMesh& solid_;
   TriMesh faces_;
   ClosestPointTree tree_;
-  double crack_edge_;
-  bool shows_slits_;  // if not, the cut went past ragged cracks (sim/body_cut)
+  double crack_edge_, stands_for_;
   IdVector<NodeId, char> along_, deep_;
 };
 
@@ -130,11 +128,12 @@ bool goes_on_inside(const TriMesh& solid, const TriMesh& sheet, double crack_edg
 
 }  // namespace
 
-std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge) {
+std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge,
+                                       double stands_for) {
   if (piece.unfinished.solid.corners.empty()) return {};  // no slit: nothing ends in it
   const TriMesh& solid = piece.unfinished.solid;
-  const TriMesh kept =
-      split_fans(embedded_part(SheetInPiece(sheet, piece, solid, crack_edge).part()), kApart * crack_edge);
+  const TriMesh kept = split_fans(
+      embedded_part(SheetInPiece(sheet, piece, solid, crack_edge, stands_for).part()), kApart * crack_edge);
   std::vector<TriMesh> out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);
