@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -94,22 +95,31 @@ void train(ForestOptions options, const CommonOptions& common) {
   print(json.dump());
 }
 
-/// Numbers that kinds of regressors can be given; one that several kinds know stands once.
+/// Numbers that kinds of regressors can be given; one that several kinds know stands once, and each kind looks at its own
+/// range.
 void add_training_options(CLI::App& command, ForestOptions& options) {
+  struct Known {
+    std::string help;
+    double minimum, maximum;
+    bool whole;
+  };
+  std::map<std::string, Known> known;
   for (const RegressorKind& kind : regressor_kinds())
     for (const TrainingOption& option : kind.options) {
-      const std::string name(option.name);
-      if (options.given.contains(name)) continue;
-      CLI::Option* added =
-          command
-              .add_option("--" + name, options.numbers[name], fmt::format("{}: {}", kind.name, option.help))
-              ->check(option.whole
-                          ? CLI::Range(static_cast<int>(option.minimum), static_cast<int>(option.maximum))
-                          : CLI::Range(option.minimum, option.maximum))
-              ->type_name(option.whole ? "INT" : "FLOAT");
-      if (option.standard) added->default_str(fmt::format("{}", *option.standard));
-      options.given[name] = added;
+      const auto [at, is_new] = known.try_emplace(std::string(option.name),
+                                                  Known{"", option.minimum, option.maximum, option.whole});
+      Known& k = at->second;
+      k.minimum = std::min(k.minimum, option.minimum);
+      k.maximum = std::max(k.maximum, option.maximum);
+      k.help += fmt::format("{}{}: {}{}", is_new ? "" : "; ", kind.name, option.help,
+                            option.standard ? fmt::format(" [{}]", *option.standard) : "");
     }
+  for (const auto& [name, k] : known)
+    options.given[name] =
+        command.add_option("--" + name, options.numbers[name], k.help)
+            ->check(k.whole ? CLI::Range(static_cast<int>(k.minimum), static_cast<int>(k.maximum))
+                            : CLI::Range(k.minimum, k.maximum))
+            ->type_name(k.whole ? "INT" : "FLOAT");
 }
 
 void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<ForestOptions>& options) {

@@ -24,7 +24,8 @@ using test::TemporaryFolder;
 TrainingSettings quick(const RegressorKind& kind, FeatureSet set = FeatureSet::dimensionless) {
   TrainingSettings settings;
   settings.features = set;
-  if (kind.name == "forest") settings.options = {{"trees", 3}, {"depth", 4}};
+  if (kind.name == "forest" || kind.name == "boosted") settings.options = {{"trees", 3}, {"depth", 4}};
+  if (kind.name == "network") settings.options = {{"width", 4}, {"epochs", 2}};
   return settings;
 }
 

@@ -209,10 +209,14 @@ Vec3 steady_opening(const Sample& s) {
 }
 
 FeatureMatrix feature_matrix(const SampleSet& samples, FeatureSet set) {
-  FeatureMatrix matrix{set, feature_count(set), {}};
+  FeatureMatrix matrix{set, feature_count(set), {}, {}};
   matrix.values.resize(samples.size() * matrix.columns);
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  std::int32_t stretch = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     features(samples[i], set, {matrix.values.data() + i * matrix.columns, matrix.columns});
+    if (i > 0 && !samples.neighbours(i - 1, i)) ++stretch;
+    matrix.stretch.push_back(stretch);
+  }
   return matrix;
 }
 

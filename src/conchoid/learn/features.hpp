@@ -77,14 +77,18 @@ Vec3 opening_spread(const Sample& sample, FeatureSet set, const Vec3& label_spre
 /// "K stays as it is": the opening [m] that K of frame n−1 gives at distance r⁺. No training.
 Vec3 steady_opening(const Sample& sample);
 
-/// Rows of features that know which set they are of.
+/// Rows of features that know which set they are of, and which of them are neighbours along a front.
 struct FeatureMatrix {
   FeatureSet set = FeatureSet::paper_4;
   std::size_t columns = 0;
   std::vector<double> values;  ///< row after row
+  std::vector<std::int32_t>
+      stretch;  ///< per row: the same number as its neighbours have; empty: every row is alone
 
   std::size_t rows() const { return columns ? values.size() / columns : 0; }
   std::span<const double> row(std::size_t i) const { return {values.data() + i * columns, columns}; }
+  /// Whether row i + 1 is a neighbour of row i.
+  bool goes_on(std::size_t i) const { return i + 1 < stretch.size() && stretch[i] == stretch[i + 1]; }
   std::span<double> row_of(std::size_t i) { return {values.data() + i * columns, columns}; }
 };
 

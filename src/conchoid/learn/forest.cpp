@@ -1,27 +1,10 @@
 #include "conchoid/learn/forest.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "conchoid/learn/bagging.hpp"
+#include "conchoid/learn/single_rows.hpp"
 #include "conchoid/learn/training.hpp"
 
 namespace conchoid {
-namespace {
-
-/// To single precision without leaving its range.
-float single(double value) {
-  constexpr double limit = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -limit, limit));
-}
-
-std::vector<float> single_rows(std::span<const double> values) {
-  std::vector<float> rows(values.size());
-  std::transform(values.begin(), values.end(), rows.begin(), single);
-  return rows;
-}
-
-}  // namespace
 
 RegressionForest RegressionForest::train(const SampleSet& samples, const ForestSettings& settings,
                                          Provenance provenance, const Progress& progress) {

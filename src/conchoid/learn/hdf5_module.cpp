@@ -225,6 +225,7 @@ void write_samples(const H5::Group& group, const SampleSet& samples) {
   write_column(group, "run", samples.run());
   write_column(group, "frame", samples.frame());
   write_column(group, "node", samples.node());
+  write_column(group, "front", samples.front());
   for (std::size_t f = 0; f < SampleSet::field_count; ++f) {
     const SampleField& field = SampleSet::fields()[f];
     write_attribute(write_column(group, std::string(field.name), samples.field(f)), "unit",
@@ -237,7 +238,11 @@ SampleSet read_samples(const H5::Group& group) {
   samples.run() = read_column<std::int32_t>(group, "run");
   samples.frame() = read_column<std::int32_t>(group, "frame");
   samples.node() = read_column<std::int32_t>(group, "node");
-  bool even = samples.frame().size() == samples.size() && samples.node().size() == samples.size();
+  // Databases of before it was recorded: one front a frame, which is nearly always true.
+  samples.front() = group.nameExists("front") ? read_column<std::int32_t>(group, "front")
+                                              : std::vector<std::int32_t>(samples.size(), 0);
+  bool even = samples.frame().size() == samples.size() && samples.node().size() == samples.size() &&
+              samples.front().size() == samples.size();
   for (std::size_t f = 0; f < SampleSet::field_count; ++f) {
     samples.field(f) = read_column<double>(group, std::string(SampleSet::fields()[f].name));
     even = even && samples.field(f).size() == samples.size();

@@ -31,7 +31,7 @@ bool within_range(double x, double minimum, double maximum) {
 }
 
 Prediction Regressor::predict(std::span<const double> row) const {
-  return predict(FeatureMatrix{record_.features, row.size(), {row.begin(), row.end()}}).front();
+  return predict(FeatureMatrix{record_.features, row.size(), {row.begin(), row.end()}, {}}).front();
 }
 
 std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {

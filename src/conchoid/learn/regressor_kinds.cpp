@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "conchoid/core/error.hpp"
+#include "conchoid/learn/boosted_trees.hpp"
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/network.hpp"
 #include "conchoid/learn/ridge.hpp"
 
 namespace conchoid {
@@ -46,6 +48,8 @@ void check_options(const RegressorKind& kind, const TrainingSettings& settings) 
 const std::vector<RegressorKind>& regressor_kinds() {
   static const std::vector<RegressorKind> kinds = {
       forest_kind(),
+      boosted_kind(),
+      network_kind(),
       ridge_kind(),
   };
   return kinds;

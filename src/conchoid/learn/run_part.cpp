@@ -10,7 +10,7 @@
 namespace conchoid {
 namespace {
 
-constexpr std::string_view magic = "CNCHRUN2";
+constexpr std::string_view magic = "CNCHRUN3";
 
 void put_record(ByteWriter& out, const RunRecord& r) {
   out.put(r.id);
@@ -76,6 +76,7 @@ std::string run_part_bytes(const RunPart& part, std::uint64_t header_hash) {
   put_record(out, part.record);
   out.put_all(std::span<const std::int32_t>(part.samples.frame()));
   out.put_all(std::span<const std::int32_t>(part.samples.node()));
+  out.put_all(std::span<const std::int32_t>(part.samples.front()));
   for (std::size_t f = 0; f < SampleSet::field_count; ++f)
     out.put_all(std::span<const double>(part.samples.field(f)));
   out.put(hash_bytes(out.bytes()));
@@ -110,6 +111,7 @@ RunPart run_part_from(const std::string& bytes, std::uint64_t header_hash, const
     part.samples.run().assign(n, part.record.id);
     part.samples.frame() = in.get_all<std::int32_t>(n);
     part.samples.node() = in.get_all<std::int32_t>(n);
+    part.samples.front() = in.get_all<std::int32_t>(n);
     for (std::size_t f = 0; f < SampleSet::field_count; ++f)
       part.samples.field(f) = in.get_all<double>(n);
     return part;

@@ -134,14 +134,14 @@ const std::array<SampleField, SampleSet::field_count>& SampleSet::fields() {
 }
 
 void SampleSet::reserve(std::size_t n) {
-  for (auto* ids : {&run_, &frame_, &node_})
+  for (auto* ids : {&run_, &frame_, &node_, &front_})
     ids->reserve(n);
   for (auto& column : values_)
     column.reserve(n);
 }
 
 void SampleSet::resize(std::size_t n) {
-  for (auto* ids : {&run_, &frame_, &node_})
+  for (auto* ids : {&run_, &frame_, &node_, &front_})
     ids->resize(n);
   for (auto& column : values_)
     column.resize(n);
@@ -151,6 +151,7 @@ void SampleSet::add(const Sample& sample) {
   run_.push_back(sample.run);
   frame_.push_back(sample.frame);
   node_.push_back(sample.node);
+  front_.push_back(sample.front);
   const auto values = values_of(sample);
   for (std::size_t f = 0; f < field_count; ++f)
     values_[f].push_back(values[f]);
@@ -161,6 +162,7 @@ void SampleSet::append(const SampleSet& other) {
   join(run_, other.run_);
   join(frame_, other.frame_);
   join(node_, other.node_);
+  join(front_, other.front_);
   for (std::size_t f = 0; f < field_count; ++f)
     join(values_[f], other.values_[f]);
 }
@@ -173,6 +175,7 @@ Sample SampleSet::operator[](std::size_t i) const {
   s.run = run_[i];
   s.frame = frame_[i];
   s.node = node_[i];
+  s.front = front_[i];
   return s;
 }
 
@@ -194,6 +197,7 @@ std::uint64_t SampleSet::hash() const {
   add_column(run_);
   add_column(frame_);
   add_column(node_);
+  add_column(front_);
   for (const auto& column : values_)
     add_column(column);
   return h;

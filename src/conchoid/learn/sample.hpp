@@ -17,6 +17,7 @@ struct Sample {
   std::int32_t run = 0;
   std::int32_t frame = 0;      ///< n, the frame the label belongs to
   std::int32_t node = 0;       ///< the front node of frame n−1; in frame n it is the correlation node
+  std::int32_t front = 0;      ///< number of its front in frame n; samples of one lie in their order along it
   Vec3 K = Vec3::Zero();       ///< stress intensity factors at frame n−1 [Pa√m]
   double toughness = 1;        ///< K_c at the front node [Pa√m], > 0
   double resolution = 1;       ///< r̄, target edge length of crack triangles [m], > 0
@@ -85,10 +86,16 @@ class SampleSet {
   const std::vector<std::int32_t>& run() const { return run_; }
   const std::vector<std::int32_t>& frame() const { return frame_; }
   const std::vector<std::int32_t>& node() const { return node_; }
+  const std::vector<std::int32_t>& front() const { return front_; }
   std::vector<std::int32_t>& run() { return run_; }
   std::vector<std::int32_t>& frame() { return frame_; }
   std::vector<std::int32_t>& node() { return node_; }
+  std::vector<std::int32_t>& front() { return front_; }
 
+  /// Whether two samples that follow each other are neighbours along a front.
+  bool neighbours(std::size_t i, std::size_t next) const {
+    return run_[i] == run_[next] && frame_[i] == frame_[next] && front_[i] == front_[next];
+  }
   /// Hash of the content, the same on every machine.
   std::uint64_t hash() const;
   /// Throws InputError that names the first sample whose numbers are not finite or outside their range.
@@ -97,7 +104,7 @@ class SampleSet {
   bool operator==(const SampleSet&) const = default;
 
  private:
-  std::vector<std::int32_t> run_, frame_, node_;
+  std::vector<std::int32_t> run_, frame_, node_, front_;
   std::array<std::vector<double>, field_count> values_;
 };
 

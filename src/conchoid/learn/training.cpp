@@ -52,10 +52,13 @@ TrainingData prepare_training(const SampleSet& samples, FeatureSet features, Pro
   const int images = image_count(features);
   data.rows = feature_matrix(samples, features);
   const std::vector<double> plain = data.rows.values;
+  const std::vector<std::int32_t> stretch = data.rows.stretch;
   data.run = samples.run();
   for (int image = 1; image < images; ++image) {
     data.rows.values.insert(data.rows.values.end(), plain.begin(), plain.end());
     data.run.insert(data.run.end(), samples.run().begin(), samples.run().end());
+    for (const std::int32_t s : stretch)
+      data.rows.stretch.push_back(s + image * (stretch.back() + 1));
     for (std::size_t i = 0; i < samples.size(); ++i)
       apply_image(features, image, data.rows.row_of(static_cast<std::size_t>(image) * samples.size() + i));
   }

@@ -15,7 +15,7 @@ namespace conchoid {
 namespace {
 
 void check(int status) {
-  if (status != 0) throw ComputationError(std::string("training the forest failed: ") + XGBGetLastError());
+  if (status != 0) throw ComputationError(std::string("training the trees failed: ") + XGBGetLastError());
 }
 
 struct FreeMatrix {
@@ -61,7 +61,12 @@ class MatrixPool {
   std::vector<Matrix> idle_;
 };
 
-Booster make_booster(const Matrix& matrix, const BaggingSettings& settings) {
+struct TreeShape {
+  int depth, leaf, bins;
+  double rate = 1, penalty = 0;
+};
+
+Booster make_booster(const Matrix& matrix, const TreeShape& shape) {
   const DMatrixHandle data[] = {matrix.get()};
   BoosterHandle handle = nullptr;
   check(XGBoosterCreate(data, 1, &handle));
@@ -72,15 +77,15 @@ Booster make_booster(const Matrix& matrix, const BaggingSettings& settings) {
   set("verbosity", "0");
   set("objective", "reg:squarederror");
   set("tree_method", "hist");
-  set("max_bin", std::to_string(settings.bins));
-  set("max_depth", std::to_string(settings.depth));
+  set("max_bin", std::to_string(shape.bins));
+  set("max_depth", std::to_string(shape.depth));
   set("nthread", "1");
   set("base_score", "0");
-  set("lambda", "0");
+  set("lambda", std::to_string(shape.penalty));
   set("alpha", "0");
   set("gamma", "0");
-  set("min_child_weight", std::to_string(settings.leaf));
-  set("eta", "1");
+  set("min_child_weight", std::to_string(shape.leaf));
+  set("eta", std::to_string(shape.rate));
   return booster;
 }
 
@@ -109,12 +114,16 @@ RegressionTree tree_from(const nlohmann::json& saved) {
   return tree;
 }
 
-RegressionTree read_tree(const Booster& booster) {
+std::vector<RegressionTree> read_trees(const Booster& booster, std::size_t count) {
   bst_ulong length = 0;
   const char* bytes = nullptr;
   check(XGBoosterSaveModelToBuffer(booster.get(), R"({"format": "ubj"})", &length, &bytes));
   const nlohmann::json model = nlohmann::json::from_ubjson(std::string_view(bytes, length));
-  return tree_from(model.at("learner").at("gradient_booster").at("model").at("trees").at(0));
+  const nlohmann::json& saved = model.at("learner").at("gradient_booster").at("model").at("trees");
+  std::vector<RegressionTree> trees;
+  for (std::size_t t = 0; t < count; ++t)
+    trees.push_back(tree_from(saved.at(t)));
+  return trees;
 }
 
 std::vector<float> own_prediction(const Booster& booster, const Matrix& matrix) {
@@ -123,6 +132,23 @@ std::vector<float> own_prediction(const Booster& booster, const Matrix& matrix) 
   check(XGBoosterPredict(booster.get(), matrix.get(), 0, 0, 0, &length, &result));
   return {result, result + length};
 }
+
+// The round after which what was left out was answered best; the last one where nothing was.
+class BestRound {
+ public:
+  explicit BestRound(int patience) : patience_(patience) {}
+  void see(int round, double error) {
+    if (round > 0 && !(error < error_) && error > 0) return;
+    error_ = error;
+    round_ = round;
+  }
+  bool long_ago(int round) const { return round > round_ + patience_; }
+  int round() const { return round_; }
+
+ private:
+  int patience_, round_ = 0;
+  double error_ = 0;
+};
 
 class XgboostGrower : public TreeGrower {
  public:
@@ -134,13 +160,46 @@ class XgboostGrower : public TreeGrower {
     Matrix matrix = matrices_.take();
     RegressionTree tree;
     {
-      const Booster booster = make_booster(matrix, settings_);
+      const Booster booster = make_booster(matrix, {settings_.depth, settings_.leaf, settings_.bins});
       grow_tree(booster, matrix, values, counts);
-      tree = read_tree(booster);
+      tree = read_trees(booster, 1).front();
       if (prediction) *prediction = own_prediction(booster, matrix);
     }
     matrices_.give(std::move(matrix));
     return tree;
+  }
+
+  std::vector<RegressionTree> boost(const std::vector<float>& values, const std::vector<char>& left_out,
+                                    const BoostingSettings& settings) override {
+    Matrix matrix = matrices_.take();
+    std::vector<RegressionTree> trees;
+    {
+      const Booster booster = make_booster(
+          matrix, {settings.depth, settings.leaf, settings.bins, settings.rate, settings.penalty});
+      std::vector<float> gradient(values.size()), hessian(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        gradient[i] = left_out[i] ? 0 : -values[i];
+        hessian[i] = left_out[i] ? 0 : 1;
+      }
+      BestRound best(settings.patience);
+      for (int round = 0; round < settings.trees && !best.long_ago(round); ++round) {
+        check(XGBoosterBoostOneIter(booster.get(), matrix.get(), gradient.data(), hessian.data(),
+                                    values.size()));
+        const std::vector<float> answer = own_prediction(booster, matrix);
+        double error = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const float off = answer[i] - values[i];
+          if (left_out[i])
+            error += static_cast<double>(off) * static_cast<double>(off);
+          else
+            gradient[i] = off;
+        }
+        best.see(round, error);
+      }
+      trees = read_trees(booster, static_cast<std::size_t>(best.round() + 1));
+    }
+    matrices_.give(std::move(matrix));
+    return trees;
   }
 
  private:

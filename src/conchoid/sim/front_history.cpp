@@ -16,6 +16,7 @@ std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontP
   Sample s;
   s.frame = crack.sheet.frame + 1;
   s.node = point.correlation.value;
+  s.front = point.front;
   s.K = before->intensity;
   s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[point.correlation]).value;
   s.resolution = resolution_;

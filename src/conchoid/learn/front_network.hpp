@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+namespace conchoid {
+
+class Random;
+
+/// A small network with convolution along the front. Rows x_i of one stretch of a front (n of them, F features each,
+/// standardised), M x_i the mean over the neighbours of row i (x_i itself where it has none):
+///   h⁰ = tanh(A₀ x + b₀)
+///   h^l = h^(l−1) + tanh(A_l h^(l−1) + B_l M h^(l−1) + b_l),   l = 1, 2
+///   y = C h² + c
+/// So an answer depends on the row and two neighbours on either side. Both neighbours count alike: the sense of a front
+/// is arbitrary, and what has a sense (slopes) changes its sign with it among the features.
+class FrontNetwork {
+ public:
+  using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// @param features  F  @param width  of h  @param answers  of y
+  FrontNetwork(int features, int width, int answers);
+
+  /// Weights uniform within √(6/(inputs + outputs)) (Glorot & Bengio 2010), no offsets, the last layer all zero.
+  void draw(Random& random);
+
+  /// All parameters in the order A₀ b₀ (A_l B_l b_l)… C c, matrices column by column.
+  std::vector<float>& parameters() { return parameters_; }
+  const std::vector<float>& parameters() const { return parameters_; }
+  int width() const { return width_; }
+
+  /// Answers for rows side by side (F × n): answers × n. Column after column by itself, so that the answer of a row has
+  /// the same bits whatever else is asked, as long as its two neighbours on either side are there.
+  /// @param goes_on  per column, whether the next one is its neighbour
+  Matrix answer(const Matrix& rows, const std::vector<char>& goes_on) const;
+
+  /// Mean over rows of |y − wanted|² and its gradient by the parameters.
+  double loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
+              std::vector<float>& gradient) const;
+
+  static constexpr int kConvolutions = 2;
+
+ private:
+  struct Layer {
+    Eigen::Index own, neighbours, offset;  ///< where A, B and b begin; no B: −1
+    Eigen::Index rows, columns;            ///< of A
+  };
+  Eigen::Map<const Matrix> own(const Layer& layer) const;
+  Eigen::Map<const Matrix> neighbours(const Layer& layer) const;
+  Eigen::Map<const Eigen::VectorXf> offset(const Layer& layer) const;
+
+  int features_, width_, answers_;
+  std::vector<Layer> layers_;  // first, convolutions, last
+  std::vector<float> parameters_;
+};
+
+}  // namespace conchoid
