@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -8,10 +9,10 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/evaluate.hpp"
-#include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/inspection.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/shipped.hpp"
+#include "conchoid/learn/tree_ensemble.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/run.hpp"
 
@@ -30,20 +31,26 @@ ordered_json per_mode(const Vec3& v) {
 
 /// Sizes of the trees and how often each feature decides, per mode; null for what has no trees.
 ordered_json trees_json(const Regressor& regressor) {
-  const auto* forest = dynamic_cast<const RegressionForest*>(&regressor);
-  if (!forest) return nullptr;
-  const std::vector<std::string> names = feature_names(forest->feature_set());
+  const std::vector<std::string> names = feature_names(regressor.feature_set());
   ordered_json modes;
   for (int mode = 0; mode < 3; ++mode) {
     std::vector<std::size_t> splits(names.size(), 0);
-    std::size_t leaves = 0;
-    for (const RegressionTree& tree : forest->ensemble(mode).trees())
-      for (std::size_t i = 0; i < tree.size(); ++i)
-        tree.left[i] < 0 ? ++leaves : ++splits[static_cast<std::size_t>(tree.feature[i])];
+    std::size_t leaves = 0, trees = 0, nodes = 0;
+    int depth = 0;
+    const std::vector<const TreeEnsemble*> ensembles = regressor.ensembles(mode);
+    if (ensembles.empty()) return nullptr;
+    for (const TreeEnsemble* ensemble : ensembles) {
+      for (const RegressionTree& tree : ensemble->trees())
+        for (std::size_t i = 0; i < tree.size(); ++i)
+          tree.left[i] < 0 ? ++leaves : ++splits[static_cast<std::size_t>(tree.feature[i])];
+      trees += ensemble->tree_count();
+      nodes += ensemble->node_count();
+      depth = std::max(depth, ensemble->depth());
+    }
     ordered_json& m = modes[kModes[static_cast<std::size_t>(mode)]];
-    m["trees"] = forest->ensemble(mode).tree_count();
-    m["depth"] = forest->ensemble(mode).depth();
-    m["nodes"] = forest->ensemble(mode).node_count();
+    m["trees"] = trees;
+    m["depth"] = depth;
+    m["nodes"] = nodes;
     m["leaves"] = leaves;
     for (std::size_t f = 0; f < names.size(); ++f)
       m["splits"][names[f]] = splits[f];

@@ -217,7 +217,10 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
   EXPECT_EQ(info["material"]["poisson_ratio"], 0.327);
 
   const std::vector<std::pair<std::string, std::vector<std::string>>> models = {
-      {"forest", {"--trees", "10", "--depth", "6"}}, {"ridge", {"--degree", "1"}}};
+      {"forest", {"--trees", "10", "--depth", "6"}},
+      {"boosted", {"--trees", "10", "--depth", "4"}},
+      {"network", {"--width", "8", "--epochs", "5"}},
+      {"ridge", {"--degree", "1"}}};
   for (const auto& [model, options] : models) {
     std::vector<std::string> train = {"forest", "train", "cube.h5", "--out", model, "--model", model};
     train.insert(train.end(), options.begin(), options.end());
@@ -241,7 +244,7 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
     EXPECT_GT(pure["expected_error"].get<double>(), 0);
     const json seen =
         json_of(folder, {"forest", "inspect", model, "--samples", "cube.h5", "--training", "cube.h5"});
-    EXPECT_EQ(seen["modes"].is_null(), model == "ridge");
+    EXPECT_EQ(seen["modes"].is_null(), model == "ridge" || model == "network");
     EXPECT_EQ(seen["coverage"]["in_range"], accuracy["samples"]);
     EXPECT_EQ(seen["coverage"]["neighbours"]["median"], 0.0);
     EXPECT_EQ(seen["features"].size(), seen["coverage"]["features"].size());

@@ -27,6 +27,12 @@ class BoostedTrees : public Regressor {
   std::string settings_json() const override;
   std::string fit_json() const override;
   std::string summary() const override;
+  std::vector<const TreeEnsemble*> ensembles(int mode) const override {
+    std::vector<const TreeEnsemble*> all;
+    for (const TreeEnsemble& member : members(mode))
+      all.push_back(&member);
+    return all;
+  }
 
   const std::vector<TreeEnsemble>& members(int mode) const {
     return members_[static_cast<std::size_t>(mode)];

@@ -43,6 +43,7 @@ class RegressionForest : public Regressor {
   std::string settings_json() const override;
   std::string fit_json() const override;
   std::string summary() const override;
+  std::vector<const TreeEnsemble*> ensembles(int mode) const override { return {&ensemble(mode)}; }
 
   const ForestSettings& settings() const { return settings_; }
   const TreeEnsemble& ensemble(int mode) const { return ensembles_[static_cast<std::size_t>(mode)]; }

@@ -17,6 +17,8 @@
 
 namespace conchoid {
 
+class TreeEnsemble;
+
 /// Where the training samples came from.
 struct Provenance {
   std::vector<std::string> models;  ///< cube, cylinder, …
@@ -90,6 +92,8 @@ class Regressor : public OpeningPredictor {
 
   /// Settings of the training that belong to this kind alone: the text of a JSON object. Part of the file.
   virtual std::string settings_json() const = 0;
+  /// The trees it has for a mode, if it has any.
+  virtual std::vector<const TreeEnsemble*> ensembles(int /*mode*/) const { return {}; }
   /// What else there is to tell about the fitted rule (sizes): the text of a JSON object.
   virtual std::string fit_json() const = 0;
   /// The same for a person, in a line: "trees       50 of depth 10 per mode".
