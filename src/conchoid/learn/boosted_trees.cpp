@@ -61,9 +61,9 @@ void BoostedTrees::predict_standardised(const FeatureMatrix& matrix, std::size_t
 }
 
 std::string BoostedTrees::settings_json() const {
-  return json{{"trees", settings_.trees},     {"depth", settings_.depth}, {"rate", settings_.rate},
-              {"leaf", settings_.leaf},       {"share", settings_.share}, {"seed", settings_.seed},
-              {"penalty", settings_.penalty}, {"bins", settings_.bins},   {"patience", settings_.patience}}
+  return json{{"trees", settings_.trees},      {"depth", settings_.depth},     {"rate", settings_.rate},
+              {"leaf", settings_.leaf},        {"penalty", settings_.penalty}, {"bins", settings_.bins},
+              {"patience", settings_.patience}}
       .dump();
 }
 
@@ -103,15 +103,8 @@ void BoostedTrees::write_fit(ByteWriter& out) const {
 std::unique_ptr<Regressor> BoostedTrees::read(TrainingRecord record, const std::string& settings,
                                               ByteReader& fit) {
   const json d = json::parse(settings);
-  const BoostingSettings s{.trees = d.at("trees"),
-                           .depth = d.at("depth"),
-                           .rate = d.at("rate"),
-                           .leaf = d.at("leaf"),
-                           .penalty = d.at("penalty"),
-                           .bins = d.at("bins"),
-                           .share = d.at("share"),
-                           .seed = d.at("seed"),
-                           .patience = d.at("patience")};
+  const BoostingSettings s{d.at("trees"),   d.at("depth"), d.at("rate"),    d.at("leaf"),
+                           d.at("penalty"), d.at("bins"),  d.at("patience")};
   auto result = std::make_unique<BoostedTrees>(BoostedTrees(std::move(record), s));
   for (std::vector<TreeEnsemble>& mode : result->members_) {
     const auto count = fit.get<std::uint32_t>();
@@ -133,8 +126,7 @@ RegressorKind boosted_kind() {
   kind.options = {{"trees", "trees per mode and member, at most", standard.trees, 1, 10000, true},
                   {"depth", "largest depth of a tree", standard.depth, 1, 20, true},
                   {"rate", "share of its answer that a tree gives", standard.rate, 1e-3, 1, false},
-                  {"leaf", "least number of samples in a leaf", standard.leaf, 1, 1e6, true},
-                  {"share", "of the features that a split is chosen among", standard.share, 0.01, 1, false}};
+                  {"leaf", "least number of samples in a leaf", standard.leaf, 1, 1e6, true}};
   kind.train = [](const SampleSet& samples, const TrainingSettings& wanted, Provenance provenance,
                   const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
     const RegressorKind& own = regressor_kind("boosted");
@@ -143,8 +135,6 @@ RegressorKind boosted_kind() {
     settings.depth = static_cast<int>(option_value(own, wanted, "depth").value());
     settings.rate = option_value(own, wanted, "rate").value();
     settings.leaf = static_cast<int>(option_value(own, wanted, "leaf").value());
-    settings.share = option_value(own, wanted, "share").value();
-    settings.seed = wanted.seed;
     return std::make_unique<BoostedTrees>(
         BoostedTrees::train(samples, wanted.features, settings, std::move(provenance), progress));
   };

@@ -10,15 +10,13 @@
 namespace conchoid {
 
 struct BoostingSettings {
-  int trees = 300;         ///< at most, per member, ≥ 1
-  int depth = 6;           ///< maximal depth, 1 … 20
-  double rate = 0.1;       ///< share of its own answer that a tree gives, 0 … 1
-  int leaf = 20;           ///< least number of samples in a leaf, ≥ 1
-  double penalty = 1;      ///< on the square of a leaf's value, in samples
-  int bins = 256;          ///< candidate thresholds per feature (quantiles), 2 … 65536
-  double share = 1;        ///< of the features, drawn anew for every node, that it may split on, 0 … 1
-  std::uint64_t seed = 1;  ///< of that
-  int patience = 20;       ///< rounds without gain on what is left out, after which no more are made
+  int trees = 300;     ///< at most, per member, ≥ 1
+  int depth = 6;       ///< maximal depth, 1 … 20
+  double rate = 0.1;   ///< share of its own answer that a tree gives, 0 … 1
+  int leaf = 20;       ///< least number of samples in a leaf, ≥ 1
+  double penalty = 1;  ///< on the square of a leaf's value, in samples
+  int bins = 256;      ///< candidate thresholds per feature (quantiles), 2 … 65536
+  int patience = 20;   ///< rounds without gain on what is left out, after which no more are made
 };
 
 /// One member of an ensemble: trees whose *sum* is its answer, fitted to one target.

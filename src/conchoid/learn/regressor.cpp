@@ -43,21 +43,17 @@ std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {
   require_finite(matrix, name());
   std::vector<Prediction> result(matrix.rows());
   parallel_for(result.size(), 256, [&](std::size_t begin, std::size_t end) {
-    predict_rows(matrix, begin, end, std::span(result).subspan(begin, end - begin));
+    predict_standardised(matrix, begin, end, std::span(result).subspan(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      for (int mode = 0; mode < 3; ++mode) {
+        result[i].mean[mode] = record_.label_mean[mode] + record_.label_scale[mode] * result[i].mean[mode];
+        result[i].spread[mode] = record_.label_scale[mode] * result[i].spread[mode];
+      }
+      for (std::size_t c = 0; c < matrix.columns; ++c)
+        if (!within(matrix.row(i)[c], record_.ranges[c])) result[i].in_range = false;
+    }
   });
   return result;
-}
-
-void Regressor::predict_rows(const FeatureMatrix& matrix, std::size_t begin, std::size_t end,
-                             std::span<Prediction> out) const {
-  predict_standardised(matrix, begin, end, out);
-  for (std::size_t i = begin; i < end; ++i) {
-    Prediction& p = out[i - begin];
-    p.mean = record_.label_mean + record_.label_scale.cwiseProduct(p.mean);
-    p.spread = record_.label_scale.cwiseProduct(p.spread);
-    for (std::size_t c = 0; c < matrix.columns; ++c)
-      if (!within(matrix.row(i)[c], record_.ranges[c])) p.in_range = false;
-  }
 }
 
 std::vector<Prediction> Regressor::predict_labels(const SampleSet& samples) const {

@@ -79,9 +79,6 @@ class Regressor : public OpeningPredictor {
   std::vector<Prediction> predict_labels(const SampleSet& samples) const;
   /// Throws InputError if the rows are of another feature set or not finite.
   std::vector<Prediction> predict(const FeatureMatrix& rows) const;
-  /// For rows begin … end alone, of a matrix that predict() takes.
-  void predict_rows(const FeatureMatrix& rows, std::size_t begin, std::size_t end,
-                    std::span<Prediction> out) const;
   /// @param row  features of the regressor's own set, finite
   Prediction predict(std::span<const double> row) const;
 
@@ -106,8 +103,6 @@ class Regressor : public OpeningPredictor {
   void save(const std::filesystem::path& file) const;
   /// Hash of everything in the file: regressors that differ in anything have different ones.
   std::uint64_t content_hash() const;
-  /// What save() writes.
-  std::string file_bytes() const;
 
  protected:
   Regressor() = default;
@@ -120,6 +115,7 @@ class Regressor : public OpeningPredictor {
   virtual void write_fit(ByteWriter& out) const = 0;
 
  private:
+  std::string file_bytes() const;
   TrainingRecord record_;
 };
 

@@ -138,20 +138,17 @@ std::string regressor_bytes(std::string_view kind_name, const TrainingRecord& re
 }
 
 std::unique_ptr<Regressor> load_regressor(const std::filesystem::path& file) {
-  return regressor_from(read_bytes(file), file.string());
-}
-
-std::unique_ptr<Regressor> regressor_from(const std::string& bytes, const std::string& name) {
-  const RegressorKind& kind = kind_of(bytes, name);
-  ByteReader in(open_envelope(bytes, kind, name));
+  const std::string bytes = read_bytes(file);
+  const RegressorKind& kind = kind_of(bytes, file.string());
+  ByteReader in(open_envelope(bytes, kind, file.string()));
   try {
     const std::string description = in.get_text();
     std::unique_ptr<Regressor> regressor = kind.read(record_from(json::parse(description)), description, in);
     if (in.left() > 0) throw InputError("there is more in it than belongs there");
     return regressor;
   } catch (const std::exception& e) {
-    throw InputError(name + ": does not hold a valid " + std::string(kind.title) + " (" + e.what() + "); " +
-                     train_again);
+    throw InputError(file.string() + ": does not hold a valid " + std::string(kind.title) + " (" + e.what() +
+                     "); " + train_again);
   }
 }
 

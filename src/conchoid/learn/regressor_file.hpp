@@ -14,7 +14,4 @@ namespace conchoid {
 std::string regressor_bytes(std::string_view kind, const TrainingRecord& record, const std::string& settings,
                             std::string_view fit);
 
-/// The regressor in those bytes. @param name  of where they come from, for errors
-std::unique_ptr<Regressor> regressor_from(const std::string& bytes, const std::string& name);
-
 }  // namespace conchoid

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/learn/blend.hpp"
 #include "conchoid/learn/boosted_trees.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/network.hpp"
@@ -22,7 +21,6 @@ const TrainingOption* find_option(const RegressorKind& kind, std::string_view na
 }
 
 std::string option_names(const RegressorKind& kind) {
-  if (kind.options.empty()) return "none";
   std::string names;
   for (const TrainingOption& option : kind.options)
     names += (names.empty() ? "--" : ", --") + std::string(option.name);
@@ -49,7 +47,10 @@ void check_options(const RegressorKind& kind, const TrainingSettings& settings) 
 
 const std::vector<RegressorKind>& regressor_kinds() {
   static const std::vector<RegressorKind> kinds = {
-      forest_kind(), boosted_kind(), network_kind(), blend_kind(), ridge_kind(),
+      forest_kind(),
+      boosted_kind(),
+      network_kind(),
+      ridge_kind(),
   };
   return kinds;
 }

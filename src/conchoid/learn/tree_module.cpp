@@ -63,8 +63,7 @@ class MatrixPool {
 
 struct TreeShape {
   int depth, leaf, bins;
-  double rate = 1, penalty = 0, share = 1;
-  std::uint64_t seed = 0;
+  double rate = 1, penalty = 0;
 };
 
 Booster make_booster(const Matrix& matrix, const TreeShape& shape) {
@@ -87,8 +86,6 @@ Booster make_booster(const Matrix& matrix, const TreeShape& shape) {
   set("gamma", "0");
   set("min_child_weight", std::to_string(shape.leaf));
   set("eta", std::to_string(shape.rate));
-  set("colsample_bynode", std::to_string(shape.share));
-  set("seed", std::to_string(shape.seed));
   return booster;
 }
 
@@ -177,9 +174,8 @@ class XgboostGrower : public TreeGrower {
     Matrix matrix = matrices_.take();
     std::vector<RegressionTree> trees;
     {
-      const Booster booster =
-          make_booster(matrix, {settings.depth, settings.leaf, settings.bins, settings.rate, settings.penalty,
-                                settings.share, settings.seed});
+      const Booster booster = make_booster(
+          matrix, {settings.depth, settings.leaf, settings.bins, settings.rate, settings.penalty});
       std::vector<float> gradient(values.size()), hessian(values.size());
       for (std::size_t i = 0; i < values.size(); ++i) {
         gradient[i] = left_out[i] ? 0 : -values[i];
