@@ -6,7 +6,7 @@
 WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) and keeps forests and results. For every class: a specification with
 another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by the forest of all classes, by one trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
-of the scene, and hybrid; all but these once more under 2.5 times the load.
+of the scene, and hybrid; and once more under 2.5 times the load.
 """
 import argparse
 import json
@@ -18,9 +18,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "polyhedron"]
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
-TRAINING = ["--features", "versatile", "--trees", "12", "--depth", "18", "--leaf", "8"]
-TOLERANCES = ["0.005", "0.01", "0.02"]  # of hybrid runs
-LOADS = [1, 2.5]
+MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
+          "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
+TOLERANCES = ["0.005", "0.01"]  # of hybrid runs
+LOAD = 2.5
 ARMADILLO = """[body]
 mesh = "{file}"
 remesh = 1100
@@ -70,74 +71,70 @@ def specification(name, runs, armadillo):
     return f'[world]\nclasses = ["{name}"]\nruns_per_body = 1\nelements = 150\n[database]\nruns = {runs}\nseed = 2024\nframes = 31\n'
 
 
-def forest(program, work, title, *options):
-    file = work / f"{title}.forest"
-    databases = [work / f"{name}.h5" for name in ("world", "cube", "cylinder", "bar")]
-    if not file.exists():
-        call(program, "forest", "train", *[d for d in databases if d.exists()], *TRAINING, *options, "--out", file)
-    return file
+def regressors(program, work, title, *options):
+    """One file for each kind of model: TITLE.forest, TITLE.boosted."""
+    files = []
+    for kind, training in MODELS.items():
+        files.append(work / f"{title}.{kind}")
+        if not files[-1].exists():
+            databases = [work / f"{name}.h5" for name in ("world", "cube", "cylinder", "bar")]
+            call(program, "forest", "train", *[d for d in databases if d.exists()], "--features", "versatile", *training, *options,
+                 "--out", files[-1])
+    return files
 
 
-def evaluate(program, work, name, runs, armadillo, load):
-    result = work / f"whole-runs-{name.replace(' ', '-')}-{runs}-load-{load}.json"
+def result_of(program, work, name, study, runs, armadillo, files, *options):
+    result = work / f"{study}-{name.replace(' ', '-')}-{runs}.json"
     if not result.exists():
         spec = work / f"held-out-{name.replace(' ', '-')}.toml"
         spec.write_text(specification(name, runs, armadillo))
-        like = LIKE.get(name, [name.split()[0]])
-        beside = []
-        if name != "armadillo":
-            without = forest(program, work, "without-" + "-".join(like), "--without", ",".join(like))
-            beside.append(without)
-        own = name.split()[0]
-        if name in ("cube", "cylinder model", "bar"):
-            beside.append(ROOT / "databases" / f"{own}.forest")
-        text = call(program, "forest", "evaluate", forest(program, work, "all"), "--runs", spec, "--load", load, "--json",
-                    *(["--noise-floor", "--tolerance", ",".join(TOLERANCES)] if load == 1 else []),
-                    *(["--beside", ",".join(map(str, beside))] if beside else []))
-        result.write_text(text)
+        result.write_text(call(program, "forest", "evaluate", files[0], "--runs", spec, "--json", *options,
+                               *(["--beside", ",".join(map(str, files[1:]))] if files[1:] else [])))
     return json.loads(result.read_text())
 
 
-def column(score):
-    return f"{100 * score['surface_median']:.2f}, {100 * score['surface_largest']:.1f}, {score['frames_ratio']:.2f}, {score['lost']}" if score else ""
+def files_for(program, work, name):
+    files = regressors(program, work, "all")
+    if name != "armadillo":
+        like = LIKE.get(name, [name.split()[0]])
+        files += regressors(program, work, "without-" + "-".join(like), "--without", ",".join(like))
+    if name in ("cube", "cylinder model", "bar"):
+        files.append(ROOT / "databases" / f"{name.split()[0]}.forest")
+    return files
 
 
-def of_class(name, scores):
-    """By role: steady, kept, stress, all, without, own, and those of hybrid runs; the Armadillo is in no training."""
-    roles = {}
-    for method, score in scores.items():
-        forest_of, _, rest = method.partition(", hybrid ")
-        role = "without" if forest_of.startswith("without") or (name == "armadillo" and forest_of == "all") else \
-            "own" if forest_of == name.split()[0] else forest_of
-        roles[f"{role}, hybrid {rest}" if rest else role] = score
-    return roles
+def role_of(method, name):
+    """The column: steady, kept, stress; of regressors all, without, own, with their kind; hybrid runs and small changes. The Armadillo is
+    in no training."""
+    regressor, hybrid, tolerance = method.partition(", hybrid ")
+    title, _, kind = regressor.partition(".")
+    if title.startswith("without") or (name == "armadillo" and title == "all"):
+        title = "left out"
+    elif title == name.split()[0]:
+        title = "own"
+    return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
 
 
-def tables(names, result_of, noise_floor):
-    print(f"| class | runs |{' solved, changed |' if noise_floor else ''} steady | kept | stress | class in training | class left out | own database |")
-    print("|---" * (9 if noise_floor else 8) + "|")
-    pooled, seconds_of = {}, {}
-    for name in names:
-        result = result_of(name)
-        scores = of_class(name, {s["method"]: s for s in result["scores"] if s["class"]})
+def table(results, columns):
+    print("| class | runs | " + " | ".join(columns) + " |")
+    print("|---" * (len(columns) + 2) + "|")
+    pooled, seconds = {}, {}
+    for name, result in results:
+        scores = {role_of(s["method"], name): s for s in result["scores"] if s["class"]}
         for r in result["runs"]:
-            role = next(iter(of_class(name, {r["method"]: 0})))
+            role = role_of(r["method"], name)
             pooled.setdefault(role, {})[name, r["run"]] = r["surface_mean"]
-            seconds_of.setdefault(role, []).append(r["opening_seconds"])
-        if not scores:
-            print(f"| {name} | 0 |", flush=True)
-            continue
-        cells = ["; ".join(f"{100 * s['surface_median']:.2f}" for m, s in scores.items() if m.startswith("solved, "))] if noise_floor else []
-        cells += [column(scores.get(m)) for m in ("steady", "kept", "stress", "all", "without", "own")]
-        print(f"| {name} | {scores['steady']['runs']} | " + " | ".join(cells) + " |", flush=True)
-    print("\n| all runs together | runs | median | 90 % | largest | class left out is better in | openings over those solved |\n|---|---|---|---|---|---|---|")
+            seconds.setdefault(role, []).append(r["opening_seconds"])
+        cell = lambda s: f"{100 * s['surface_median']:.2f}, {100 * s['surface_largest']:.1f}, {s['frames_ratio']:.2f}, {s['lost']}" if s else ""
+        print(f"| {name} | {max((s['runs'] for s in scores.values()), default=0)} | " + " | ".join(cell(scores.get(c)) for c in columns) + " |")
+    against = next((c for c in ("left out boosted", "left out forest") if c in pooled), None)
+    print("\n| all runs together | runs | median | 90 % | largest | openings over those solved | left out is nearer in |\n|---|---|---|---|---|---|---|")
     for role, runs in pooled.items():
-        values, both = sorted(runs.values()), [k for k in runs if k in pooled["without"]]
-        better = sum(pooled["without"][k] < runs[k] for k in both)
-        seconds = [sum(s) for s in zip(*seconds_of[role])]
-        print(f"| {role} | {len(values)} | {100 * statistics.median(values):.2f} | {100 * values[int(0.9 * (len(values) - 1))]:.1f} | {100 * values[-1]:.1f} | "
-              f"{better} of {len(both)} | {seconds[1] / seconds[0]:.2f} |")
-    print()
+        values, both = sorted(runs.values()), [k for k in runs if against and k in pooled[against]]
+        solved, made = (sum(s) for s in zip(*seconds[role]))
+        print(f"| {role} | {len(values)} | {100 * statistics.median(values):.2f} | {100 * values[int(0.9 * (len(values) - 1))]:.1f} | "
+              f"{100 * values[-1]:.1f} | {made / solved:.2f} | {sum(pooled[against][k] < runs[k] for k in both)} of {len(both)} |")
+    print(flush=True)
 
 
 def main():
@@ -149,9 +146,21 @@ def main():
     parser.add_argument("--armadillo", default=str(ROOT / "tests/data/armadillo.ply"))
     a = parser.parse_args()
     names = a.only.split(",") if a.only else ["cube", "cylinder model", "bar", *WORLD, "armadillo"]
-    for load in LOADS:
-        print(f"Load x {load}\n")
-        tables(names, lambda name: evaluate(a.program, a.work, name, a.runs, a.armadillo, load), load == 1)
+    run = lambda study, count, files, *options: [
+        (name, result_of(a.program, a.work, name, study, count, a.armadillo, files(name), *options)) for name in names]
+    files = lambda name: files_for(a.program, a.work, name)
+    closed = ["steady", "kept", "stress"]
+    learned = [f"{where} {kind}" for where in ("all", "left out") for kind in MODELS] + ["own"]
+    print("Whole runs\n")
+    table(run("whole-runs", a.runs, files), closed + learned)
+    few = (a.runs + 1) // 2
+    print(f"Load x {LOAD}\n")
+    table(run("load", few, files, "--load", LOAD), closed + learned)
+    print("Small changes of what is solved, and hybrid runs with boosted trees that the class is left out of\n")
+    left_out = lambda name: [f for f in files(name) if f.suffix == ".boosted"][-1:]
+    changes = ["load + 0.5 %", "load turned 0.5 deg", "edge + 10 %", "elements + 10 %"]
+    table(run("noise", few, left_out, "--noise-floor", "--tolerance", ",".join(TOLERANCES)),
+          [f"solved, {c}" for c in changes] + ["left out boosted"] + [f"left out boosted, hybrid {t}" for t in TOLERANCES])
 
 
 if __name__ == "__main__":

@@ -85,7 +85,7 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
   std::vector<std::unique_ptr<Regressor>> others;
   std::vector<RunMethod> methods;
   const auto add = [&](const std::string& file, const Regressor& regressor) {
-    const std::string title = std::filesystem::path(file).stem().string();
+    const std::string title = std::filesystem::path(file).filename().string();
     methods.push_back({title, std::string(regressor.name()), &regressor});
     for (const double tolerance : options.tolerances)
       methods.push_back({fmt::format("{}, hybrid {}", title, tolerance), "hybrid", &regressor, tolerance});

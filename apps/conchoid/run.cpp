@@ -10,7 +10,6 @@
 #include "conchoid/bem/body_solver.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
-#include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/shipped.hpp"
 #include "conchoid/sim/methods.hpp"
@@ -88,8 +87,7 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   std::unique_ptr<Regressor> regressor;
   std::string database = command.database;
-  if (database.empty() && opening_method(command.method).regressor == forest_kind().name)
-    database = std::string(kStandardDatabase);
+  if (database.empty()) database = standard_database(opening_method(command.method).regressor);
   if (!database.empty()) regressor = load_regressor(database_file(database));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor, options.tolerance);
@@ -134,8 +132,9 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option(
       "--database", options->database,
       fmt::format("for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
-                  "forest train; without it a forest is {}",
-                  trained, fmt::join(shipped_names(), ", "), kStandardDatabase));
+                  "forest train; without it a forest is {}, boosted trees {}",
+                  trained, fmt::join(shipped_names(), ", "), standard_database("forest"),
+                  standard_database("boosted")));
   command
       ->add_option("--tolerance", options->tolerance,
                    "of --method hybrid: error that is to be expected of the crack surface at most, over the "

@@ -14,17 +14,22 @@ TEST(Shipped, EveryDatabaseIsFoundByNameAndReads) {
   for (const std::string_view name : shipped_names()) {
     const std::filesystem::path file = database_file(std::string(name));
     const auto regressor = load_regressor(file);
-    EXPECT_EQ(regressor->name(), "forest");
+    EXPECT_EQ(regressor->name(), name.ends_with(".boosted") ? "boosted" : "forest");
     EXPECT_EQ(regressor->feature_set(), FeatureSet::versatile) << name;
     EXPECT_GT(regressor->provenance().runs, 20u) << name;
     EXPECT_FALSE(regressor->provenance().spec.empty()) << name;
     bytes += std::filesystem::file_size(file);
   }
-  EXPECT_LT(bytes, std::uintmax_t{6} << 20);
+  EXPECT_LT(bytes, std::uintmax_t{10} << 20);
 }
 
 TEST(Shipped, TheStandardOneKnowsManyClassesOfBodies) {
-  EXPECT_GE(load_regressor(database_file(std::string(kStandardDatabase)))->provenance().models.size(), 9u);
+  for (const std::string_view kind : {"forest", "boosted"}) {
+    const auto regressor = load_regressor(database_file(std::string(standard_database(kind))));
+    EXPECT_EQ(regressor->name(), kind);
+    EXPECT_GE(regressor->provenance().models.size(), 9u);
+  }
+  EXPECT_EQ(standard_database("ridge"), "");
 }
 
 TEST(Shipped, AFileOfTheUsersGoesFirst) {

@@ -32,14 +32,20 @@ std::string known_names() {
 }  // namespace
 
 const std::vector<std::string_view>& shipped_names() {
-  static const std::vector<std::string_view> names = {"cube", "cylinder", "bar", "versatile"};
+  static const std::vector<std::string_view> names = {"cube", "cylinder", "bar", "versatile",
+                                                      "versatile.boosted"};
   return names;
 }
 
+std::string_view standard_database(std::string_view kind) {
+  return kind == "forest" ? "versatile" : kind == "boosted" ? "versatile.boosted" : "";
+}
+
 fs::path shipped_file(std::string_view name) {
+  const bool names_kind = name.find('.') != std::string_view::npos;
   std::string looked_in;
   for (const fs::path& folder : folders()) {
-    const fs::path file = folder / (std::string(name) + ".forest");
+    const fs::path file = folder / (std::string(name) + (names_kind ? "" : ".forest"));
     if (fs::exists(file)) return file;
     looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
   }

@@ -7,14 +7,16 @@
 
 namespace conchoid {
 
-/// Regressors that come with the program, by name, each a file NAME.forest in the folder databases/:
+/// Regressors that come with the program, by name, each a file in the folder databases/, NAME.forest where the name tells
+/// no kind:
 ///   cube, cylinder, bar   of one body each, under random loads
 ///   versatile             of many classes of bodies: for any scene
+///   versatile.boosted     the same as boosted trees: nearer, slower
 /// How they were made: databases/README.md, scripts/make_databases.sh.
 const std::vector<std::string_view>& shipped_names();
 
-/// What a method takes where no database is named.
-inline constexpr std::string_view kStandardDatabase = "versatile";
+/// Which of them a method takes that needs a regressor of that kind, where no database is named; empty: none.
+std::string_view standard_database(std::string_view kind);
 
 /// The file of one: installed with the program (share/conchoid/databases), or in the source tree that it was built from.
 /// Throws InputError, naming the folders looked in, if it is in none of them.
