@@ -107,12 +107,19 @@ def role_of(method, name):
     """The column: steady, kept, stress; of regressors all, without, own, with their kind; hybrid runs and small changes. The Armadillo is
     in no training."""
     regressor, hybrid, tolerance = method.partition(", hybrid ")
-    title, _, kind = regressor.partition(".")
+    title, kind = regressor.rsplit(".", 1) if regressor.endswith(tuple("." + k for k in MODELS)) else (regressor, "")
     if title.startswith("without") or (name == "armadillo" and title == "all"):
         title = "left out"
     elif title == name.split()[0]:
         title = "own"
     return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
+
+
+def cell(score):
+    if not score:
+        return ""
+    text = f"{100 * score['surface_median']:.2f}, {100 * score['surface_largest']:.1f}; {score['frames_ratio']:.2f}"
+    return text + (f" ({score['lost']})" if score["lost"] else "")
 
 
 def table(results, columns):
@@ -125,7 +132,6 @@ def table(results, columns):
             role = role_of(r["method"], name)
             pooled.setdefault(role, {})[name, r["run"]] = r["surface_mean"]
             seconds.setdefault(role, []).append(r["opening_seconds"])
-        cell = lambda s: f"{100 * s['surface_median']:.2f}, {100 * s['surface_largest']:.1f}, {s['frames_ratio']:.2f}, {s['lost']}" if s else ""
         print(f"| {name} | {max((s['runs'] for s in scores.values()), default=0)} | " + " | ".join(cell(scores.get(c)) for c in columns) + " |")
     against = next((c for c in ("left out boosted", "left out forest") if c in pooled), None)
     print("\n| all runs together | runs | median | 90 % | largest | openings over those solved | left out is nearer in |\n|---|---|---|---|---|---|---|")

@@ -11,7 +11,7 @@ namespace conchoid {
 /// no kind:
 ///   cube, cylinder, bar   of one body each, under random loads
 ///   versatile             of many classes of bodies: for any scene
-///   versatile.boosted     the same as boosted trees: nearer, slower
+///   versatile.boosted     the same as boosted trees: for bodies unlike all of these
 /// How they were made: databases/README.md, scripts/make_databases.sh.
 const std::vector<std::string_view>& shipped_names();
 
