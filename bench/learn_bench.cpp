@@ -1,7 +1,9 @@
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "conchoid/learn/forest.hpp"
+#include "conchoid/learn/regressor_kinds.hpp"
 #include "learn/synthetic.hpp"
 #include "side_by_side.hpp"
 
@@ -88,8 +90,26 @@ void prediction(benchmark::State& state) {
   state.counters["us_per_row"] = 1e6 * t.fast / static_cast<double>(rows);
 }
 
+// Openings of 1,000 front points by a kind of regressor with its standard settings, beside a forest.
+void kinds(benchmark::State& state) {
+  const SampleSet samples = ten_thousand();
+  std::vector<std::size_t> some(1000);
+  std::iota(some.begin(), some.end(), std::size_t{0});
+  const SampleSet asked = samples.subset(some);
+  const RegressorKind& kind = regressor_kinds().at(static_cast<std::size_t>(state.range(0)));
+  const auto of_kind = train_regressor(kind, samples, {.features = FeatureSet::dimensionless});
+  const RegressionForest forest = RegressionForest::train(samples, {.features = FeatureSet::dimensionless});
+  const auto asking = [&](const Regressor& regressor) {
+    return [&] { return seconds([&] { benchmark::DoNotOptimize(regressor.predict_openings(asked)); }); };
+  };
+  const Times t = side_by_side(state, asking(*of_kind), asking(forest));
+  state.SetLabel(std::string(kind.name));
+  state.counters["us_per_point"] = 1e6 * t.fast / static_cast<double>(some.size());
+}
+
 }  // namespace
 
+BENCHMARK(kinds)->DenseRange(0, 3)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(training)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(prediction)->Arg(100)->Arg(10000)->Iterations(20)->UseManualTime()->Unit(benchmark::kMillisecond);
 

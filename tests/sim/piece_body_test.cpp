@@ -6,6 +6,9 @@
 #include <numeric>
 
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/mesh/models.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
+#include "conchoid/remesh/tidy.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/sim/run_identity.hpp"
@@ -106,6 +109,35 @@ TEST(PieceBody, AMovedPieceTakesItsMaterialAlong) {
     EXPECT_NEAR(there.value, at_rest.value, 1e-12);
     EXPECT_LT((there.gradient - turn * at_rest.gradient).norm(), 1e-10);
   }
+}
+
+// Where slits have gone from its surface, parts may touch in a node that lay between them: no surface of a body, but a
+// hair apart they are.
+TEST(PieceBody, PartsThatTouchInANodeAreTakenApart) {
+  TriMesh two = box_mesh(Vec3::Ones(), 2, 2, 2), other = two;
+  for (Vec3& x : other.positions)
+    x += Vec3::Ones();
+  two = join({two, other});
+  // A flat crumb of two pairs of faces that hangs at one of its nodes.
+  const NodeId hung(0), a = two.positions.add(two.positions[hung] - Vec3(0.1, 0, 0)),
+                        b = two.positions.add(two.positions[hung] - Vec3(0.1, 0.1, 0)),
+                        c = two.positions.add(two.positions[hung] - Vec3(0.1, 0.05, 1e-10));
+  for (const auto& corners : {std::array{hung, a, b}, {hung, b, c}, {hung, c, a}, {a, c, b}})
+    two.corners.push_back(corners);
+  const double volume = enclosed_volume(two);
+  merge_equal_nodes(two);
+  drop_unused_nodes(two);
+  ASSERT_FALSE(find_defects(two).empty());
+  Fragment piece;
+  piece.mesh = two;
+  piece.face_kind.assign(two.triangle_count(), FaceKind::original);
+  for (std::size_t t = 0; t < two.triangle_count(); ++t)
+    piece.source.emplace_back(t);
+  const Body body = body_from_fragment(piece, {}, {});
+  EXPECT_TRUE(find_defects(body.detailed).empty());
+  EXPECT_EQ(body.detailed.triangle_count(), two.triangle_count() - 4);
+  EXPECT_EQ(body.regions[0].triangles.size(), body.detailed.triangle_count());
+  EXPECT_NEAR(enclosed_volume(body.detailed), volume, 1e-3);
 }
 
 // A deep edge crack separates the body while a small crack beside it feels too little to grow. In the piece

@@ -1,5 +1,8 @@
 #include "conchoid/sim/body.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
 #include "conchoid/core/numbers.hpp"
@@ -7,7 +10,9 @@
 #include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/models.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/remesh/examine.hpp"
+#include "conchoid/remesh/pinches.hpp"
 #include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/remesh/weld.hpp"
@@ -84,6 +89,28 @@ Body body_from_model(const std::string& name, const BodySettings& settings) {
   return with_settings(std::move(body), settings);
 }
 
+namespace {
+
+constexpr double kCrumb = 1e-9;  // × volume: below what the volumes of pieces add up to
+
+// Without its slits, parts of a surface may touch in a node that lay between them. What encloses nothing goes.
+// @param faces  one thing per triangle
+void take_apart(TriMesh& surface, std::vector<TriId>& faces) {
+  if (split_pinches(surface) == 0) return;
+  std::vector<TriId> kept, kept_faces;
+  const double volume = enclosed_volume(surface);
+  for (const SurfacePart& part : surface_parts(surface))
+    if (std::abs(part.volume) > kCrumb * volume)
+      kept.insert(kept.end(), part.triangles.begin(), part.triangles.end());
+  std::sort(kept.begin(), kept.end());
+  for (const TriId t : kept)
+    kept_faces.push_back(faces[t.index()]);
+  surface = submesh(surface, kept);
+  faces = std::move(kept_faces);
+}
+
+}  // namespace
+
 Body body_from_fragment(const Fragment& fragment, const MaterialFrame& material,
                         const BodySettings& settings) {
   const bool slits = !fragment.unfinished.solid.corners.empty();
@@ -94,6 +121,7 @@ Body body_from_fragment(const Fragment& fragment, const MaterialFrame& material,
   if (!slits)
     for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t)
       faces.emplace_back(t);
+  take_apart(body.detailed, faces);
   require_valid_body(body.detailed, body.name);
   body.attributes = attributes_of(fragment.attributes, faces);
   body.regions = {{"original", {}}, {"fracture", {}}};

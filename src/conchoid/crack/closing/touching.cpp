@@ -114,7 +114,10 @@ std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector
         const std::size_t n = fronts[g].nodes.size();
         for (std::size_t e = 0; e < edge_count(n, fronts[g].closed); ++e) {
           const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next_index(e, n, fronts[g].closed)];
-          if (a.state == FrontState::outside && b.state == FrontState::outside) continue;
+          // Only within a hole do they matter to each other: two ends of a front that come round it.
+          if (a.state == FrontState::outside && b.state == FrontState::outside &&
+              m.state != FrontState::outside)
+            continue;
           if (f == g && neighbours_on_front(i, e, n, fronts[g].closed)) continue;
           if (!within_reach(m, a, b, kMeetOneFront * target_edge) || !touches(m, a, b, f == g, target_edge))
             continue;
