@@ -259,7 +259,8 @@ void Breakup::State::end_first(StopReason reason) {
 }
 
 void Breakup::State::end_piece() {
-  if (!grown() || interrupted()) return;
+  if (interrupted() || !(grown() || fracture->parted()))
+    return;  // a last ligament may break before anything grows
   std::optional<Pieces> clean;
   const std::size_t ways = fracture->parted() != nullptr ? 1 : kShifts.size();  // what has parted it stays
   for (std::size_t i = 0; i < ways && !clean; ++i)

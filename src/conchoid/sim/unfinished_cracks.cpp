@@ -17,8 +17,10 @@ namespace {
 constexpr double kAlongFace = 0.8;  // cosine between the normals of a sheet and of a face it runs along …
 constexpr double kNearFace = 0.9;   // … × r̄: and how near to it
 constexpr double kLeastArea = 1;    // × r̄²: of what goes on
-constexpr double kLeastDepth =
-    1;  // × r̄: how deep that goes; elements do not resolve what lies nearer to the surface
+// × r̄: how deep that goes, below the faces that cut the piece free (what lies nearer is a shaving of what has come
+// apart) and below any (what lies nearer no element resolves).
+constexpr double kLeastDepth = 1;
+constexpr double kLeastCover = 0.5;
 constexpr double kLift = 0.15;  // × r̄: to which it leaves such a face
 constexpr double kApart = 0.1;  // × r̄: what touched at a point only
 
@@ -111,14 +113,19 @@ class SheetInPiece {
 };
 
 // Whether it goes on in the piece by more than a crumb of what has come apart.
-bool goes_on_inside(const TriMesh& solid, const TriMesh& sheet, double crack_edge) {
+// @param faces  that cut the piece free
+bool goes_on_inside(const TriMesh& solid, const TriMesh& faces, const TriMesh& sheet, double crack_edge) {
   const CutComplex cut = corefine(solid, sheet);
   const TriMesh inside{cut.positions, cut.sheet};
   if (!(surface_area(inside) > kLeastArea * crack_edge * crack_edge)) return false;
-  const ClosestPointTree surface(solid);
-  const double depth = kLeastDepth * crack_edge;
+  const ClosestPointTree surface(solid), parted(faces);
+  const auto beyond = [](const ClosestPointTree& tree, const Vec3& x, double depth) {
+    return tree.closest(x).squared_distance >= depth * depth;
+  };
   const auto deep = [&](NodeId n) {
-    return surface.closest(inside.positions[n]).squared_distance >= depth * depth;
+    const Vec3& x = inside.positions[n];
+    return beyond(surface, x, kLeastCover * crack_edge) &&
+           (faces.corners.empty() || beyond(parted, x, kLeastDepth * crack_edge));
   };
   const std::vector<Front> fronts = find_fronts(inside, cut.mouth);
   return std::any_of(fronts.begin(), fronts.end(), [&](const Front& front) {
@@ -132,12 +139,13 @@ std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& 
                                        double stands_for) {
   if (piece.unfinished.solid.corners.empty()) return {};  // no slit: nothing ends in it
   const TriMesh& solid = piece.unfinished.solid;
+  const TriMesh faces = cut_faces(piece, solid);
   const TriMesh kept = split_fans(
       embedded_part(SheetInPiece(sheet, piece, solid, crack_edge, stands_for).part()), kApart * crack_edge);
   std::vector<TriMesh> out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);
-    if (goes_on_inside(solid, one, crack_edge)) out.push_back(std::move(one));
+    if (goes_on_inside(solid, faces, one, crack_edge)) out.push_back(std::move(one));
   }
   return out;
 }

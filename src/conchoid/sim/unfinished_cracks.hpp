@@ -8,8 +8,8 @@
 namespace conchoid {
 
 /// What of the boundary element cracks goes on inside a piece: the parts of the sheet that lie in it, not
-/// along the faces that cut it free, have an area of r̄² or more there and a front inside, deeper than r̄ below its surface
-/// somewhere: shallower ones are shavings of what has come apart, whose K no element resolves. They stick out of the piece
+/// along the faces that cut it free, have an area of r̄² or more there, and a front inside that lies somewhere deeper than r̄ below
+/// those faces (nearer ones are shavings of what has come apart) and r̄/2 below any (whose K no element resolves). They stick out of the piece
 /// by up to a triangle where they meet its surface, lifted off those faces. All in one frame of coordinates.
 /// @param crack_edge  r̄ [m]
 /// @param stands_for  [m], so near to those faces all of the sheet is along them, whatever its normal (BodyCut)
