@@ -126,6 +126,19 @@ TEST(OverloadedCube, BreaksAcross) {
   }
 }
 
+// With all the cracks that end in it, which touch each other, what is left after two chips cannot be computed.
+TEST(CubeOfFiveCracks, GoesOnWithoutACrackThatCannotBeComputed) {
+  const RunResult result = test::run_text(
+      "[body]\nmodel = 'cube'\n[material]\nname = 'glass'\n" + test::resolution_text(0.1, 0.1 / 6) +
+      test::region_text("top", test::half_space_text(Vec3::UnitZ(), 0.4999)) +
+      test::region_text("bottom", test::half_space_text(-Vec3::UnitZ(), 0.4999)) +
+      test::boundary_text("top", "traction", {0, 0, 8e7}) +
+      "[[boundary]]\nregion = 'bottom'\nfixed = true\n[run]\nmax_cracks = 5\n");
+  expect_pieces(result, 2);
+  EXPECT_LT(result.fragments.front().volume, 0.9);
+  EXPECT_LT(area(result), 6);
+}
+
 struct Hollow {
   const char* name;
   TriMesh mesh;

@@ -124,6 +124,7 @@ struct Breakup::State {
   NamedRows rows;
   std::optional<BrokenPieces> pieces;
   std::deque<Waiting> waiting;
+  std::optional<Waiting> at_work;  // the piece that breaks
   std::vector<std::string> warnings;
   StopReason outcome = StopReason::frame_limit;  // if nothing goes on
   std::optional<StopReason> stop;
@@ -162,6 +163,7 @@ struct Breakup::State {
   void end_piece();
   void step_piece(StepReport& report);
   void give_up(const std::exception& error);
+  bool leave_out_a_crack();
 };
 
 void Breakup::State::begin(std::shared_ptr<const Scene> of_body,
@@ -201,6 +203,7 @@ bool Breakup::State::begin_piece(Waiting& piece) {
     its_run.max_fragments = run.max_fragments - static_cast<int>(pieces->count()) + 1;
   auto prepared = std::make_shared<const PreparedBody>(prepare(own.scene, std::move(own.body)));
   id = piece.id;
+  at_work = piece;
   rows.body = bodies++;
   begin(std::make_shared<const Scene>(std::move(own.scene)), std::move(prepared));
   return true;
@@ -227,6 +230,20 @@ bool Breakup::State::begin_next() {
 void Breakup::State::give_up(const std::exception& error) {
   warnings.push_back(fmt::format("after frame {}: a piece is left as it is, as it cannot be computed: {}",
                                  frame, error.what()));
+}
+
+// Cracks that touch each other in a piece can make its system singular: it is tried again without the smallest.
+bool Breakup::State::leave_out_a_crack() {
+  std::vector<TriMesh>& cracks = at_work->fragment.unfinished.sheets;
+  if (cracks.size() < 2) return false;
+  const auto smaller = [](const TriMesh& a, const TriMesh& b) { return surface_area(a) < surface_area(b); };
+  cracks.erase(std::min_element(cracks.begin(), cracks.end(), smaller));
+  warnings.push_back(fmt::format(
+      "after frame {}: a crack that ends in a piece stays as it is, as the piece cannot be computed with it",
+      frame));
+  waiting.push_front(*std::move(at_work));
+  at_work.reset();
+  return true;
 }
 
 // A chip is no separation; what it came off goes on, if it can.
@@ -295,6 +312,9 @@ void Breakup::State::end_body(StopReason reason) {
 void Breakup::State::step_piece(StepReport& report) {
   try {
     report = fracture->step();
+  } catch (const SingularSystem& error) {
+    if (!leave_out_a_crack()) give_up(error);
+    report.stop = StopReason::singular;
   } catch (const ComputationError& error) {
     give_up(error);
     report.stop = StopReason::singular;
