@@ -97,7 +97,9 @@ void kinds(benchmark::State& state) {
   std::iota(some.begin(), some.end(), std::size_t{0});
   const SampleSet asked = samples.subset(some);
   const RegressorKind& kind = regressor_kinds().at(static_cast<std::size_t>(state.range(0)));
-  const auto of_kind = train_regressor(kind, samples, {.features = FeatureSet::dimensionless});
+  TrainingSettings settings;
+  settings.features = FeatureSet::dimensionless;
+  const auto of_kind = train_regressor(kind, samples, settings);
   const RegressionForest forest = RegressionForest::train(samples, {.features = FeatureSet::dimensionless});
   const auto asking = [&](const Regressor& regressor) {
     return [&] { return seconds([&] { benchmark::DoNotOptimize(regressor.predict_openings(asked)); }); };
