@@ -45,8 +45,8 @@ double mean_square(const BoostedMember& member, const Values& v) {
 
 TEST(Boosting, TheSumOfTheTreesIsTheAnswer) {
   const Values v = wavy(2000, 0, 1), fresh = wavy(500, 0, 2);
-  const auto fitted =
-      fit_boosted_trees(v.rows, 2, {v.target}, std::vector<int>(2000, 0), {.trees = 200, .leaf = 5});
+  const auto fitted = fit_boosted_trees(v.rows, 2, {v.target}, RunGroups{std::vector<int>(2000, 0)},
+                                        {.trees = 200, .leaf = 5});
   ASSERT_EQ(fitted[0].size(), 1U) << "nothing to leave out: one member";
   EXPECT_EQ(fitted[0][0].size(), 200U) << "and all of its trees";
   EXPECT_LT(mean_square(fitted[0][0], v), 1e-3);
@@ -56,12 +56,12 @@ TEST(Boosting, TheSumOfTheTreesIsTheAnswer) {
 // With noise, more trees make it worse after a while: the group left out says when.
 TEST(Boosting, StopsWhereWhatIsLeftOutGetsWorse) {
   const Values v = wavy(800, 0.5, 3), fresh = wavy(4000, 0, 4);
-  std::vector<int> group(800);
-  for (std::size_t i = 0; i < group.size(); ++i)
-    group[i] = static_cast<int>(i % 2);
+  RunGroups groups{std::vector<int>(800), 2};
+  for (std::size_t i = 0; i < groups.of_row.size(); ++i)
+    groups.of_row[i] = static_cast<int>(i % 2);
   const BoostingSettings settings{.trees = 400, .leaf = 5};
-  const auto stopped = fit_boosted_trees(v.rows, 2, {v.target}, group, settings);
-  const auto all = fit_boosted_trees(v.rows, 2, {v.target}, std::vector<int>(800, 0), settings);
+  const auto stopped = fit_boosted_trees(v.rows, 2, {v.target}, groups, settings);
+  const auto all = fit_boosted_trees(v.rows, 2, {v.target}, RunGroups{std::vector<int>(800, 0)}, settings);
   for (const BoostedMember& member : stopped[0]) {
     EXPECT_LT(member.size(), 100U);
     EXPECT_LT(mean_square(member, fresh), mean_square(all[0][0], fresh));

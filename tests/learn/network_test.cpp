@@ -38,17 +38,17 @@ TEST(FrontNetwork, TheGradientIsThatOfTheLoss) {
   Random random(1);
   FrontNetwork network = drawn(random);
   const Matrix rows = random_matrix(4, 9, random), wanted = random_matrix(3, 9, random);
-  std::vector<float> gradient, unused;
-  network.loss(rows, kGoesOn, wanted, gradient);
+  std::vector<float> gradient;
+  network.loss_gradient(rows, kGoesOn, wanted, gradient);
   double largest = 0;
   for (const float g : gradient)
     largest = std::max(largest, static_cast<double>(std::abs(g)));
   for (std::size_t i = 0; i < gradient.size(); ++i) {
     const float at = network.parameters()[i], step = 1e-2F;
     network.parameters()[i] = at + step;
-    const double more = network.loss(rows, kGoesOn, wanted, unused);
+    const double more = network.loss(rows, kGoesOn, wanted);
     network.parameters()[i] = at - step;
-    const double less = network.loss(rows, kGoesOn, wanted, unused);
+    const double less = network.loss(rows, kGoesOn, wanted);
     network.parameters()[i] = at;
     EXPECT_NEAR((more - less) / (2 * 1e-2), static_cast<double>(gradient[i]), 2e-3 * largest) << i;
   }
@@ -58,9 +58,8 @@ TEST(FrontNetwork, TheLossIsThatOfTheAnswers) {
   Random random(2);
   const FrontNetwork network = drawn(random);
   const Matrix rows = random_matrix(4, 9, random), wanted = random_matrix(3, 9, random);
-  std::vector<float> unused;
   const double of_answers = static_cast<double>((network.answer(rows, kGoesOn) - wanted).squaredNorm()) / 9;
-  EXPECT_NEAR(network.loss(rows, kGoesOn, wanted, unused), of_answers, 1e-5 * of_answers);
+  EXPECT_NEAR(network.loss(rows, kGoesOn, wanted), of_answers, 1e-5 * of_answers);
 }
 
 // The sense in which a front is walked along does not matter, a row of another stretch does not, and of its own only two

@@ -13,7 +13,9 @@ TEST(RunGroups, RunsStayWholeAndGroupsAreAlike) {
   for (int r = 0; r < 480; ++r)
     for (int k = 0; k < 1 + r % 5; ++k)
       run.push_back(7 * r);
-  const std::vector<int> group = run_groups(run, 4);
+  const RunGroups groups = run_groups(run, 4);
+  const std::vector<int>& group = groups.of_row;
+  EXPECT_EQ(groups.count, 4);
   std::map<std::int32_t, std::set<int>> of_run;
   std::map<int, std::set<std::int32_t>> runs;
   for (std::size_t i = 0; i < run.size(); ++i) {
@@ -29,8 +31,9 @@ TEST(RunGroups, RunsStayWholeAndGroupsAreAlike) {
 }
 
 TEST(RunGroups, AFewRunsAreDealtOneByOneAndFewerThanGroupsNotAtAll) {
-  EXPECT_EQ(run_groups({5, 5, 6, 8, 9}, 4), (std::vector<int>{0, 0, 1, 2, 3}));
-  EXPECT_EQ(run_groups({5, 5, 6, 8}, 4), (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(run_groups({5, 5, 6, 8, 9}, 4).of_row, (std::vector<int>{0, 0, 1, 2, 3}));
+  EXPECT_EQ(run_groups({5, 5, 6, 8}, 4).of_row, (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(run_groups({5, 5, 6, 8}, 4).count, 1);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/learn/members.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
-#include "conchoid/learn/run_groups.hpp"
 #include "conchoid/learn/single_rows.hpp"
 #include "conchoid/learn/training.hpp"
 #include "conchoid/learn/tree_bytes.hpp"
@@ -28,12 +27,13 @@ BoostedTrees BoostedTrees::train(const SampleSet& samples, FeatureSet features,
   std::vector<std::vector<float>> targets;
   for (const std::vector<double>& labels : data.labels)
     targets.push_back(single_rows(labels));
+  const RunGroups groups = run_groups(data.run, kMembers);
   int done = 0;
   const auto step = [&] {
-    if (progress) progress(++done, 3 * kMembers);
+    if (progress) progress(++done, 3 * groups.count);
   };
-  const auto fitted = fit_boosted_trees(single_rows(data.rows.values), data.rows.columns, targets,
-                                        run_groups(data.run, kMembers), settings, step);
+  const auto fitted =
+      fit_boosted_trees(single_rows(data.rows.values), data.rows.columns, targets, groups, settings, step);
   BoostedTrees result(std::move(data.record), settings);
   for (std::size_t mode = 0; mode < 3; ++mode)
     for (const BoostedMember& member : fitted[mode])
@@ -43,8 +43,7 @@ BoostedTrees BoostedTrees::train(const SampleSet& samples, FeatureSet features,
 
 void BoostedTrees::predict_standardised(const FeatureMatrix& matrix, std::size_t begin, std::size_t end,
                                         std::span<Prediction> out) const {
-  const std::vector<float> rows =
-      single_rows(std::span(matrix.values).subspan(begin * matrix.columns, (end - begin) * matrix.columns));
+  const std::vector<float> rows = single_rows(matrix, begin, end);
   std::vector<TreeEnsemble::Answer> answers(end - begin);
   for (int mode = 0; mode < 3; ++mode) {
     std::vector<MemberAnswers> of_members(answers.size());

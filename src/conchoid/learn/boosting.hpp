@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "conchoid/learn/run_groups.hpp"
 #include "conchoid/learn/tree_ensemble.hpp"
 
 namespace conchoid {
@@ -27,12 +28,12 @@ using BoostedMember = std::vector<RegressionTree>;
 /// Trees by XGBoost, one thread each: the same bits for every number of threads.
 /// @param rows      features, row after row, finite
 /// @param targets   one value per sample each, best of zero mean and unit deviation
-/// @param group     per sample, 0 … groups − 1; one group only: one member of all samples, all of its trees
+/// @param groups    one only: one member of all samples, all of its trees
 /// @param progress  called after every member, never twice at a time; may throw to stop
 /// @return per target, per member
 std::vector<std::vector<BoostedMember>> fit_boosted_trees(std::span<const float> rows, std::size_t columns,
                                                           const std::vector<std::vector<float>>& targets,
-                                                          const std::vector<int>& group,
+                                                          const RunGroups& groups,
                                                           const BoostingSettings& settings,
                                                           const std::function<void()>& progress = {});
 

@@ -27,8 +27,7 @@ RegressionForest RegressionForest::train(const SampleSet& samples, const ForestS
 
 void RegressionForest::predict_standardised(const FeatureMatrix& matrix, std::size_t begin, std::size_t end,
                                             std::span<Prediction> out) const {
-  const std::vector<float> rows =
-      single_rows(std::span(matrix.values).subspan(begin * matrix.columns, (end - begin) * matrix.columns));
+  const std::vector<float> rows = single_rows(matrix, begin, end);
   std::vector<TreeEnsemble::Answer> answers(end - begin);
   for (int mode = 0; mode < 3; ++mode) {
     ensemble(mode).evaluate(rows, answers);

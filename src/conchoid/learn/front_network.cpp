@@ -52,8 +52,7 @@ Matrix product(const Eigen::Map<const Matrix>& a, const Matrix& x) {
 
 }  // namespace
 
-FrontNetwork::FrontNetwork(int features, int width, int answers)
-    : features_(features), width_(width), answers_(answers) {
+FrontNetwork::FrontNetwork(int features, int width, int answers) {
   Index at = 0;
   const auto add = [&](Index rows, Index columns, bool convolution) {
     Layer layer{at, -1, 0, rows, columns};
@@ -110,22 +109,34 @@ Matrix FrontNetwork::answer(const Matrix& rows, const std::vector<char>& goes_on
   return product(own(layers_.back()), h).colwise() + offset(layers_.back());
 }
 
-double FrontNetwork::loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
-                          std::vector<float>& gradient) const {
-  gradient.assign(parameters_.size(), 0);
-  std::vector<Matrix> h, squashed, mean(1);
-  squashed.push_back(((own(layers_[0]) * rows).colwise() + offset(layers_[0])).array().tanh());
-  h.push_back(squashed.back());
+FrontNetwork::Passed FrontNetwork::pass(const Matrix& rows, const std::vector<char>& goes_on) const {
+  Passed p;
+  p.squashed.push_back(((own(layers_[0]) * rows).colwise() + offset(layers_[0])).array().tanh());
+  p.h.push_back(p.squashed.back());
+  p.mean.emplace_back();
   for (std::size_t l = 1; l + 1 < layers_.size(); ++l) {
-    mean.push_back(neighbour_mean(h.back(), goes_on));
-    squashed.push_back(
-        ((own(layers_[l]) * h.back() + neighbours(layers_[l]) * mean.back()).colwise() + offset(layers_[l]))
+    const Matrix& h = p.h.back();
+    p.mean.push_back(neighbour_mean(h, goes_on));
+    p.squashed.push_back(
+        ((own(layers_[l]) * h + neighbours(layers_[l]) * p.mean.back()).colwise() + offset(layers_[l]))
             .array()
             .tanh());
-    h.push_back(h.back() + squashed.back());
+    p.h.emplace_back(h + p.squashed.back());
   }
+  p.answer = (own(layers_.back()) * p.h.back()).colwise() + offset(layers_.back());
+  return p;
+}
+
+double FrontNetwork::loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted) const {
+  return static_cast<double>((pass(rows, goes_on).answer - wanted).squaredNorm()) /
+         static_cast<double>(rows.cols());
+}
+
+void FrontNetwork::loss_gradient(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
+                                 std::vector<float>& gradient) const {
+  gradient.assign(parameters_.size(), 0);
+  const auto [h, squashed, mean, answer] = pass(rows, goes_on);
   const Layer& last = layers_.back();
-  const Matrix off = ((own(last) * h.back()).colwise() + offset(last)) - wanted;
   const auto n = static_cast<float>(rows.cols());
   const auto put = [&](const Layer& layer, const Matrix& g, const Matrix& in, const Matrix* in_neighbours) {
     Eigen::Map<Matrix>(gradient.data() + layer.own, layer.rows, layer.columns).noalias() = g * in.transpose();
@@ -134,7 +145,7 @@ double FrontNetwork::loss(const Matrix& rows, const std::vector<char>& goes_on, 
           g * in_neighbours->transpose();
     Eigen::Map<Eigen::VectorXf>(gradient.data() + layer.offset, layer.rows) = g.rowwise().sum();
   };
-  const Matrix g_last = (2 / n) * off;
+  const Matrix g_last = (2 / n) * (answer - wanted);
   put(last, g_last, h.back(), nullptr);
   Matrix g = own(last).transpose() * g_last;  // by h of the layer at hand
   for (std::size_t l = layers_.size() - 2; l > 0; --l) {
@@ -145,7 +156,6 @@ double FrontNetwork::loss(const Matrix& rows, const std::vector<char>& goes_on, 
   }
   const Matrix inner = g.array() * (1 - squashed[0].array().square());
   put(layers_[0], inner, rows, nullptr);
-  return static_cast<double>(off.squaredNorm()) / static_cast<double>(rows.cols());
 }
 
 }  // namespace conchoid

@@ -28,16 +28,17 @@ class FrontNetwork {
   /// All parameters in the order A₀ b₀ (A_l B_l b_l)… C c, matrices column by column.
   std::vector<float>& parameters() { return parameters_; }
   const std::vector<float>& parameters() const { return parameters_; }
-  int width() const { return width_; }
 
   /// Answers for rows side by side (F × n): answers × n. Column after column by itself, so that the answer of a row has
   /// the same bits whatever else is asked, as long as its two neighbours on either side are there.
   /// @param goes_on  per column, whether the next one is its neighbour
   Matrix answer(const Matrix& rows, const std::vector<char>& goes_on) const;
 
-  /// Mean over rows of |y − wanted|² and its gradient by the parameters.
-  double loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
-              std::vector<float>& gradient) const;
+  /// Mean over rows of |y − wanted|².
+  double loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted) const;
+  /// Its gradient by the parameters.
+  void loss_gradient(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
+                     std::vector<float>& gradient) const;
 
   static constexpr int kConvolutions = 2;
 
@@ -46,11 +47,16 @@ class FrontNetwork {
     Eigen::Index own, neighbours, offset;  ///< where A, B and b begin; no B: −1
     Eigen::Index rows, columns;            ///< of A
   };
+  /// What the layers pass on: per layer but the last h, its tanh and what neighbours gave it; y at the end.
+  struct Passed {
+    std::vector<Matrix> h, squashed, mean;
+    Matrix answer;
+  };
+  Passed pass(const Matrix& rows, const std::vector<char>& goes_on) const;
   Eigen::Map<const Matrix> own(const Layer& layer) const;
   Eigen::Map<const Matrix> neighbours(const Layer& layer) const;
   Eigen::Map<const Eigen::VectorXf> offset(const Layer& layer) const;
 
-  int features_, width_, answers_;
   std::vector<Layer> layers_;  // first, convolutions, last
   std::vector<float> parameters_;
 };

@@ -1,5 +1,5 @@
-// What the file of networks holds behind its description (regressor_file.cpp): means and 1/deviations of features f64 ·
-// number of members u32 · parameters of each f32 (front_network.hpp)
+// What the file of networks holds behind its description (regressor_file.cpp): means and 1/deviations of features f64
+// (term_basis.cpp) · number of members u32 · parameters of each f32 (front_network.hpp)
 #include "conchoid/learn/network.hpp"
 
 #include <fmt/format.h>
@@ -24,28 +24,17 @@ using Matrix = FrontNetwork::Matrix;
 
 constexpr int kWidest = 1024;
 
-std::vector<double> column(const FeatureMatrix& rows, std::size_t c) {
-  std::vector<double> values(rows.rows());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = rows.row(i)[c];
-  return values;
-}
-
-bool varies(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *least < *most;
-}
-
 }  // namespace
 
 Matrix Network::standardised(const FeatureMatrix& rows, std::size_t begin, std::size_t end) const {
   Matrix out(rows.columns, end - begin);
-  for (std::size_t i = begin; i < end; ++i)
-    for (std::size_t c = 0; c < rows.columns; ++c) {
-      const double z = (rows.row(i)[c] - mean_[c]) * scale_[c];
+  std::vector<double> z(rows.columns);
+  for (std::size_t i = begin; i < end; ++i) {
+    features_.evaluate(rows.row(i), z);
+    for (std::size_t c = 0; c < rows.columns; ++c)
       out(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i - begin)) =
-          std::clamp(static_cast<float>(z), -kFarthest, kFarthest);
-    }
+          std::clamp(static_cast<float>(z[c]), -kFarthest, kFarthest);
+  }
   return out;
 }
 
@@ -53,32 +42,27 @@ Network Network::train(const SampleSet& samples, FeatureSet features, const Netw
                        Provenance provenance, const TrainingProgress& progress) {
   const TrainingData data = prepare_training(samples, features, std::move(provenance));
   Network result(data.record, settings);
-  for (std::size_t c = 0; c < data.rows.columns; ++c) {
-    const std::vector<double> values = column(data.rows, c);
-    const Moments m = moments(values);
-    result.mean_.push_back(m.mean);
-    result.scale_.push_back(varies(values) ? 1 / m.deviation : 0);
-  }
+  result.features_ = TermBasis(data.rows, 1);
   const std::size_t n = data.rows.rows();
-  NetworkData fitted{result.standardised(data.rows, 0, n), Matrix(3, n), {}, run_groups(data.run, kMembers)};
+  RunGroups groups = run_groups(data.run, kMembers);
+  NetworkData fitted{result.standardised(data.rows, 0, n), Matrix(3, n), {}, std::move(groups.of_row)};
   for (std::size_t i = 0; i < n; ++i) {
     fitted.goes_on.push_back(data.rows.goes_on(i));
     for (std::size_t mode = 0; mode < 3; ++mode)
       fitted.wanted(static_cast<Eigen::Index>(mode), static_cast<Eigen::Index>(i)) =
           static_cast<float>(data.labels[mode][i]);
   }
-  const int groups = 1 + *std::max_element(fitted.group.begin(), fitted.group.end());
-  result.members_.assign(static_cast<std::size_t>(groups), FrontNetwork(1, 1, 1));
+  result.members_.assign(static_cast<std::size_t>(groups.count), FrontNetwork(1, 1, 1));
   std::mutex mutex;
   int done = 0;
   const auto step = [&] {
     const std::lock_guard lock(mutex);
-    if (progress) progress(++done, groups * settings.epochs);
+    if (progress) progress(++done, groups.count * settings.epochs);
   };
   parallel_for(result.members_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t member = begin; member < end; ++member)
       result.members_[member] =
-          fit_network(fitted, groups > 1 ? static_cast<int>(member) : -1, settings, step);
+          fit_network(fitted, groups.count > 1 ? static_cast<int>(member) : -1, settings, step);
   });
   return result;
 }
@@ -127,8 +111,7 @@ std::string Network::summary() const {
 }
 
 void Network::write_fit(ByteWriter& out) const {
-  out.put_all(std::span<const double>(mean_));
-  out.put_all(std::span<const double>(scale_));
+  features_.write(out);
   out.put(static_cast<std::uint32_t>(members_.size()));
   for (const FrontNetwork& member : members_)
     out.put_all(std::span<const float>(member.parameters()));
@@ -141,8 +124,7 @@ std::unique_ptr<Regressor> Network::read(TrainingRecord record, const std::strin
   if (s.width < 1 || s.width > kWidest) throw InputError("its width is wrong");
   auto result = std::make_unique<Network>(Network(std::move(record), s));
   const std::size_t features = result->ranges().size();
-  result->mean_ = fit.get_all<double>(features);
-  result->scale_ = fit.get_all<double>(features);
+  result->features_ = TermBasis::read(fit, features, 1);
   const auto count = fit.get<std::uint32_t>();
   if (count != 1 && count != kMembers) throw InputError("the number of members is wrong");
   const auto finite = [](auto x) { return std::isfinite(x); };
@@ -153,9 +135,6 @@ std::unique_ptr<Regressor> Network::read(TrainingRecord record, const std::strin
       throw InputError("a parameter is not finite");
     result->members_.push_back(std::move(member));
   }
-  if (!std::all_of(result->mean_.begin(), result->mean_.end(), finite) ||
-      !std::all_of(result->scale_.begin(), result->scale_.end(), finite))
-    throw InputError("a scale is not finite");
   return result;
 }
 

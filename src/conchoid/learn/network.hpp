@@ -6,6 +6,7 @@
 
 #include "conchoid/learn/network_fit.hpp"
 #include "conchoid/learn/regressor.hpp"
+#include "conchoid/learn/term_basis.hpp"
 
 namespace conchoid {
 
@@ -41,7 +42,7 @@ class Network : public Regressor {
   FrontNetwork::Matrix standardised(const FeatureMatrix& rows, std::size_t begin, std::size_t end) const;
 
   NetworkSettings settings_;
-  std::vector<double> mean_, scale_;  // of features; scale 1/deviation, 0 where nothing varies
+  TermBasis features_;  // of degree 1
   std::vector<FrontNetwork> members_;
 };
 

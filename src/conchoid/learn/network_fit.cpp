@@ -93,12 +93,11 @@ class Adam {
 // Mean square error over stretches, a batch at a time.
 double error(const FrontNetwork& network, const NetworkData& data, const std::vector<Stretch>& of) {
   double sum = 0, rows = 0;
-  std::vector<float> unused;
   std::size_t begin = 0;
   for (const std::size_t end : batch_ends(of)) {
     const Batch batch = gathered(data, of, std::exchange(begin, end), end);
     const auto n = static_cast<double>(batch.rows.cols());
-    sum += n * network.loss(batch.rows, batch.goes_on, batch.wanted, unused);
+    sum += n * network.loss(batch.rows, batch.goes_on, batch.wanted);
     rows += n;
   }
   return sum / rows;
@@ -110,7 +109,6 @@ FrontNetwork fit_network(const NetworkData& data, int left_out, const NetworkSet
                          const std::function<void()>& progress) {
   std::vector<Stretch> learned = stretches(data, [&](int g) { return g != left_out; });
   const std::vector<Stretch> judged = stretches(data, [&](int g) { return g == left_out; });
-  if (learned.empty()) learned = judged;
   Random random(settings.seed, static_cast<std::uint64_t>(left_out + 1));
   FrontNetwork network(static_cast<int>(data.rows.rows()), settings.width,
                        static_cast<int>(data.wanted.rows()));
@@ -124,7 +122,7 @@ FrontNetwork fit_network(const NetworkData& data, int left_out, const NetworkSet
     const std::vector<std::size_t> ends = batch_ends(learned);
     for (std::size_t b = 0; b < ends.size(); ++b) {
       const Batch batch = gathered(data, learned, b > 0 ? ends[b - 1] : 0, ends[b]);
-      network.loss(batch.rows, batch.goes_on, batch.wanted, gradient);
+      network.loss_gradient(batch.rows, batch.goes_on, batch.wanted, gradient);
       const double way =
           (epoch + static_cast<double>(b) / static_cast<double>(ends.size())) / settings.epochs;
       adam.step(network.parameters(), gradient,

@@ -10,19 +10,20 @@ constexpr std::size_t kDealtTogether = 12;
 
 }  // namespace
 
-std::vector<int> run_groups(const std::vector<std::int32_t>& run, int groups) {
+RunGroups run_groups(const std::vector<std::int32_t>& run, int groups) {
   const std::set<std::int32_t> distinct(run.begin(), run.end());
   const std::vector<std::int32_t> ids(distinct.begin(), distinct.end());
   const auto count = static_cast<std::size_t>(groups);
-  std::vector<int> group(run.size(), 0);
-  if (ids.size() < count) return group;
+  RunGroups out{std::vector<int>(run.size(), 0)};
+  if (ids.size() < count) return out;
+  out.count = groups;
   const std::size_t together = std::min(kDealtTogether, ids.size() / count);
   for (std::size_t i = 0; i < run.size(); ++i) {
     const auto place =
         static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), run[i]) - ids.begin());
-    group[i] = static_cast<int>(place / together % count);
+    out.of_row[i] = static_cast<int>(place / together % count);
   }
-  return group;
+  return out;
 }
 
 }  // namespace conchoid

@@ -13,4 +13,8 @@ std::vector<float> single_rows(std::span<const double> values) {
   return rows;
 }
 
+std::vector<float> single_rows(const FeatureMatrix& rows, std::size_t begin, std::size_t end) {
+  return single_rows(std::span(rows.values).subspan(begin * rows.columns, (end - begin) * rows.columns));
+}
+
 }  // namespace conchoid

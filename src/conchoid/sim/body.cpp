@@ -37,6 +37,24 @@ Body with_settings(Body body, const BodySettings& settings) {
   return with_elements(std::move(body), std::move(elements));
 }
 
+constexpr double kCrumb = 1e-9;  // × volume: below what the volumes of pieces add up to
+
+// Without its slits, parts of a surface may touch in a node that lay between them. What encloses nothing goes.
+// @param faces  one thing per triangle
+void take_apart(TriMesh& surface, std::vector<TriId>& faces) {
+  if (split_pinches(surface) == 0) return;
+  std::vector<TriId> kept, kept_faces;
+  const double volume = enclosed_volume(surface);
+  for (const SurfacePart& part : surface_parts(surface))
+    if (std::abs(part.volume) > kCrumb * volume)
+      kept.insert(kept.end(), part.triangles.begin(), part.triangles.end());
+  std::sort(kept.begin(), kept.end());
+  for (const TriId t : kept)
+    kept_faces.push_back(faces[t.index()]);
+  surface = submesh(surface, kept);
+  faces = std::move(kept_faces);
+}
+
 }  // namespace
 
 Body with_elements(Body body, TriMesh surface) {
@@ -88,28 +106,6 @@ Body body_from_model(const std::string& name, const BodySettings& settings) {
   if (!model.crack.corners.empty()) body.cracks.push_back(std::move(model.crack));
   return with_settings(std::move(body), settings);
 }
-
-namespace {
-
-constexpr double kCrumb = 1e-9;  // × volume: below what the volumes of pieces add up to
-
-// Without its slits, parts of a surface may touch in a node that lay between them. What encloses nothing goes.
-// @param faces  one thing per triangle
-void take_apart(TriMesh& surface, std::vector<TriId>& faces) {
-  if (split_pinches(surface) == 0) return;
-  std::vector<TriId> kept, kept_faces;
-  const double volume = enclosed_volume(surface);
-  for (const SurfacePart& part : surface_parts(surface))
-    if (std::abs(part.volume) > kCrumb * volume)
-      kept.insert(kept.end(), part.triangles.begin(), part.triangles.end());
-  std::sort(kept.begin(), kept.end());
-  for (const TriId t : kept)
-    kept_faces.push_back(faces[t.index()]);
-  surface = submesh(surface, kept);
-  faces = std::move(kept_faces);
-}
-
-}  // namespace
 
 Body body_from_fragment(const Fragment& fragment, const MaterialFrame& material,
                         const BodySettings& settings) {

@@ -203,7 +203,7 @@ bool Breakup::State::begin_piece(Waiting& piece) {
     its_run.max_fragments = run.max_fragments - static_cast<int>(pieces->count()) + 1;
   auto prepared = std::make_shared<const PreparedBody>(prepare(own.scene, std::move(own.body)));
   id = piece.id;
-  at_work = piece;
+  at_work = std::move(piece);
   rows.body = bodies++;
   begin(std::make_shared<const Scene>(std::move(own.scene)), std::move(prepared));
   return true;
