@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Whole runs of bodies of classes that a forest has seen in training, and of classes that it has not; writes the tables of docs/prediction.md.
+"""Whole runs of bodies of classes that a regressor has seen in training, and of classes that it has not; writes the tables of docs/prediction.md.
 
   scripts/study_transfer.py CONCHOID WORK [--runs 10] [--only NAMES] [--armadillo tests/data/armadillo.ply]
 
-WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) and keeps forests and results. For every class: a specification with
-another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by the forest of all classes, by one trained
+WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) and keeps regressors and results. For every class: a specification with
+another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
 of the scene, and hybrid; and once more under 2.5 times the load.
 """
