@@ -1,10 +1,14 @@
 #include "conchoid/intersect/cut_editor.hpp"
 
+#include <cmath>
+
 namespace conchoid {
 namespace {
 
 /// Altitude over longest edge below which round-off decides whether a piece has an area.
 constexpr double kFlat = 1e-9;
+/// Height over the surface, over the longest edge, below which a piece of the sheet lies in it.
+constexpr double kInSurface = 5e-3;
 
 /// Number of open ends (0 or 2) if the pieces form one fan around n, else −1.
 int open_ends(NodeId n, const std::vector<Corners>& pieces) {
@@ -113,9 +117,33 @@ bool CutEditor::is_mouth_after(NodeId a, NodeId b, const CutChange& change) cons
   return in(change.mouth_added) || (is_mouth(a, b) && !in(change.mouth_removed));
 }
 
+/// Whether all three corners are the surface's, after the change, and in the plane of one of its pieces there.
+bool CutEditor::lies_in_surface(const Corners& sheet_piece, const CutChange& change) const {
+  std::array<Vec3, 3> x;
+  for (int k = 0; k < 3; ++k)
+    x[k] = sheet_piece[k] == change.moved ? change.to : at(sheet_piece[k]);
+  const double longest = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+  std::array<std::vector<Corners>, 3> around;
+  for (int k = 0; k < 3; ++k) {
+    around[k] = around_after(surface_layer, sheet_piece[k], change);
+    if (around[k].empty()) return false;
+  }
+  const auto height = [&](const Vec3& n, int from, int to) { return std::abs(n.dot(x[to] - x[from])); };
+  for (int k = 0; k < 3; ++k)
+    for (const Corners& c : around[k]) {
+      const auto after = [&](NodeId n) { return n == change.moved ? change.to : at(n); };
+      const Vec3 n = area_vector2(after(c[0]), after(c[1]), after(c[2])).normalized();
+      if (std::max(height(n, k, (k + 1) % 3), height(n, k, (k + 2) % 3)) < kInSurface * longest) return true;
+    }
+  return false;
+}
+
 /// Every node touched: closed fan of surface pieces, one fan of sheet pieces that starts and ends as
 /// before.
 bool CutEditor::stays_valid(const CutChange& change) const {
+  if (std::any_of(change.added[sheet_layer].begin(), change.added[sheet_layer].end(),
+                  [&](const CutPiece& p) { return lies_in_surface(p.corners, change); }))
+    return false;
   std::vector<NodeId> touched;
   for (const int l : {surface_layer, sheet_layer}) {
     for (const std::size_t p : change.removed[l])

@@ -79,7 +79,7 @@ class CutEditor {
   const Vec3& at(NodeId n) const { return cut_.positions[n]; }
 
   /// Makes the change if the complex stays valid (surface closed and manifold, sheet manifold, no piece
-  /// turned over, mouth a curve) and the worst piece around gets better; false, and nothing happens,
+  /// turned over or laid into the surface, mouth a curve) and the worst piece around gets better; false, and nothing happens,
   /// otherwise.
   bool make(const CutChange& change);
   /// Writes the pieces back, numbered without gaps, in an order that does not tell how they came about.
@@ -95,6 +95,7 @@ class CutEditor {
  private:
   bool improves_shape(const CutChange& change) const;
   bool stays_valid(const CutChange& change) const;
+  bool lies_in_surface(const Corners& sheet_piece, const CutChange& change) const;
   bool node_valid(NodeId n, const CutChange& change) const;
   double quality(const std::array<NodeId, 3>& c, const CutChange& change, const Vec3& normal,
                  bool after) const;

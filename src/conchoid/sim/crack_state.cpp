@@ -54,6 +54,18 @@ double worst_piece(const CutComplex& cut) {
   return worst;
 }
 
+// The least height of the sheet's pieces over the surface, over their longest edges: what lies between is a flake that
+// no system resolves, although no piece need be a sliver.
+double flattest_wedge(const CutComplex& cut, const ClosestPointTree& surface) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& c : cut.sheet) {
+    const Triangle t{cut.positions[c[0]], cut.positions[c[1]], cut.positions[c[2]]};
+    const double height2 = 9 * surface.closest((t[0] + t[1] + t[2]) / 3).squared_distance;
+    least = std::min(least, height2 / squared_longest_edge(t));
+  }
+  return std::sqrt(least);
+}
+
 // Squared distance of a triangle from the sheet, at its corners and the middles of its edges and of itself.
 double squared_distance(const ClosestPointTree& sheet, const Triangle& t) {
   double least = sheet.closest((t[0] + t[1] + t[2]) / 3).squared_distance;
@@ -96,14 +108,15 @@ CutDivision belong_to(const TriMesh& surface, DividedMesh divided, CutComplex& c
 }
 
 // Where the sheet runs exactly through nodes of the surface, or along one of its triangles, the pieces
-// degenerate. The boundary elements then see it displaced along its normal by a hundredth of a crack edge or
-// a few, the first that leaves no sliver; the one before is tried before all others.
+// degenerate, or lie on it. The boundary elements then see it displaced along its normal by a hundredth of a
+// crack edge or a few, the first that leaves no sliver and no flake; the one before is tried before all others.
 void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& sheet, double crack_edge,
                       NearCracks near) {
   CutComplex best;
   double best_piece = -1, best_shift = 0;
   DividedMesh divided =
       near == NearCracks::divided ? divide_near(surface, sheet, crack_edge) : undivided(surface);
+  const ClosestPointTree faces(surface);
   const bool known = !state.cut.sheet.empty();
   std::vector<double> shifts{state.displacement};
   for (const double shift : kShifts)
@@ -117,7 +130,7 @@ void cut_for_elements(CrackState& state, const TriMesh& surface, const TriMesh& 
     }
     try {
       CutComplex cut = corefine(divided.mesh, moved, {kMouthMerge, kMouthBend});
-      const double piece = worst_piece(cut);
+      const double piece = std::min(worst_piece(cut), flattest_wedge(cut, faces));
       if (piece > best_piece) {
         best = std::move(cut);
         best_piece = piece;
