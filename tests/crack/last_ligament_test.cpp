@@ -96,6 +96,30 @@ TEST(LastLigament, ThereIsNoneWhereMoreIsLeftThanIsCracked) {
   EXPECT_TRUE(find_last_ligaments(unit_cube(), {}, kEdge).empty());
 }
 
+// Boundary elements narrower than the body have come apart: so does the body, along as little as can be, though that is
+// more than would break by itself.
+TEST(LastLigament, OfElementsThatHaveComeApartIsFoundInTheBodyTheyStandFor) {
+  const TriMesh sheet = plane_sheet(-0.6, 0.25, 0.013);
+  TriMesh elements = box_mesh({0.74, 1, 1}, 4, 4, 4);
+  const double low = bounding_box(elements).low.x();
+  for (Vec3& x : elements.positions)
+    x.x() += -0.5 - low;
+  ASSERT_NEAR(bounding_box(elements).high.x(), 0.24, 1e-12);
+  EXPECT_TRUE(find_last_ligaments(unit_cube(), sheet, kEdge).empty());
+  const auto apart = find_last_ligaments(elements, sheet, kEdge);
+  ASSERT_EQ(apart.size(), 1u);
+  EXPECT_TRUE(apart[0].faces.empty());
+  const auto same = find_same_ligament(unit_cube(), sheet, kEdge, apart[0]);
+  ASSERT_TRUE(same);
+  EXPECT_NEAR(same->half_width, 0.125, 0.25 * kEdge);
+  EXPECT_NEAR(same->smaller_part, 0.487, 0.02);
+  for (const Vec3& x : same->faces) {
+    EXPECT_GT(x.x(), 0.23);
+    EXPECT_LT(std::abs(x.z() - 0.013), 0.25 * kEdge);
+  }
+  EXPECT_FALSE(find_same_ligament(unit_cube(), {}, kEdge, apart[0]));
+}
+
 // Two cracks that have passed each other: what is left runs from one to the other, whichever side is up.
 TEST(LastLigament, LiesAcrossTheGapBetweenCracksThatOverlap) {
   const TriMesh left = plane_sheet(-0.6, 0.1, 0.03);

@@ -4,6 +4,7 @@
 
 #include "conchoid/core/random.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 #include "intersect/cut_shapes.hpp"
 #include "scenes.hpp"
 
@@ -30,7 +31,9 @@ BodyCut along_ligament(const PreparedBody& body, std::vector<TriMesh> sheets) {
   run.smallest_fragment = 2e-3;  // sheets that cross enclose crumbs
   BodyCut cut = cut_body(body, run, std::move(sheets));
   if (!cut.parted())
-    cut_ligament(cut, body, run, LigamentsOf::each_and_all, [](const LastLigament&) { return true; });
+    cut_ligament(
+        cut, body, run,
+        find_last_ligaments(body.detailed, join(cut.sheets), body.crack_edge, LigamentsOf::each_and_all));
   return cut;
 }
 

@@ -114,6 +114,29 @@ TEST(ResolutionWarnings, ACrackOfOneRowIsWarnedOfAndOneOfTwoIsFair) {
   RecordProperty("two", test::text(two));
 }
 
+// A round column of which few elements leave a prism: said where a crack starts.
+TEST(ResolutionWarnings, ElementsThatAreSlimmerThanTheBodyAreSaid) {
+  const test::TemporaryFolder folder;
+  const TriMesh column =
+      shapes::turned(shapes::divided({{0, -1}, {0.2, -1}, {0.2, 1}, {0, 1}}, {2, 20, 2}, false), 24, false);
+  const auto warning = [&](int elements) {
+    const std::string text = pulled_text(folder, column, 0.05);
+    const PreparedBody body = prepare(test::scene_from_text("[body]\nremesh = " + std::to_string(elements) +
+                                                            text.substr(text.find("\nmesh"))));
+    const auto& c = body.surface.corners;
+    std::size_t middle = 0;
+    for (std::size_t t = 0; t < c.size(); ++t)
+      if (std::abs(centroid(body.surface, TriId(t)).z()) <
+          std::abs(centroid(body.surface, TriId(middle)).z()))
+        middle = t;
+    return outline_warning(body, centroid(body.surface, TriId(middle)));
+  };
+  const auto coarse = warning(24);
+  ASSERT_TRUE(coarse);
+  EXPECT_NE(coarse->find("where the body is 0.4 m thick"), std::string::npos) << *coarse;
+  EXPECT_FALSE(warning(600));
+}
+
 TEST(ResolutionWarnings, AnEdgeOfARegionGoesWithRemesh) {
   const std::string text =
       test::pulled_cube_text() + "[[region]]\nname = 'fine'\nbox = [[0, 0, 0], [1, 1, 1]]\nedge = 0.05\n";

@@ -201,13 +201,12 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
   return cut;
 }
 
-void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run, LigamentsOf of,
-                  const std::function<bool(const LastLigament&)>& breaks) {
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
+                  const std::vector<LastLigament>& ligaments) {
   const TriMesh all = join(cut.sheets);
   // A chip is not worth the slits of the body it comes off.
   const double least = run.smallest_body * enclosed_volume(body.detailed);
-  for (const LastLigament& ligament : find_last_ligaments(body.detailed, all, body.crack_edge, of)) {
-    if (!breaks(ligament)) continue;
+  for (const LastLigament& ligament : ligaments) {
     LigamentCut by(cut, body, run, ligament, all);
     if (by.over_ends()) return;
     if (ligament.smaller_part >= least && by.between_sides()) return;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,11 +34,11 @@ double slit_width(const PreparedBody& body);
 /// warning. Pieces are as small and as many as the run's settings allow.
 BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMesh> sheets);
 
-/// Goes on with a cut that leaves one piece: along the first of what is left to break (find_last_ligaments(), for the
-/// detailed body and these sheets) that `breaks` and parts the body; of the ways to lay its surface over the cracks,
+/// Goes on with a cut that leaves one piece: along the first of what is left to break of the detailed body between these
+/// sheets that parts it; of the ways to lay its surface over the cracks,
 /// one whose pieces do not cross themselves once their slits are open, if there is one; else along all of the surface
 /// between its two sides, which stands for the sheets near it, where no less than run.smallest_body comes off.
-void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run, LigamentsOf of,
-                  const std::function<bool(const LastLigament&)>& breaks);
+void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
+                  const std::vector<LastLigament>& ligaments);
 
 }  // namespace conchoid

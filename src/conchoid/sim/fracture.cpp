@@ -22,6 +22,7 @@
 #include "conchoid/sim/ligament_rule.hpp"
 #include "conchoid/sim/nearly_through.hpp"
 #include "conchoid/sim/path_turn.hpp"
+#include "conchoid/sim/resolution_warnings.hpp"
 #include "conchoid/sim/resolved_points.hpp"
 #include "conchoid/surface/separation.hpp"
 
@@ -128,7 +129,10 @@ struct Fracture::State {
   std::vector<TriMesh> unfold_visible_sheets() const;
   bool is_told(double volume);
   bool separated();
-  bool parts(LigamentsOf of, bool at_end, const std::function<bool(const LastLigament&)>& breaks);
+  bool parts(LigamentsOf of, bool at_end, const std::function<bool(const LastLigament&)>& breaks,
+             std::optional<LastLigament> of_elements);
+  void break_ligament(BodyCut& cut, LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks,
+                      std::optional<LastLigament> of_elements) const;
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -151,16 +155,41 @@ bool Fracture::State::is_told(double volume) {
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
   if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
-  return parts(LigamentsOf::each, false, [](const LastLigament&) { return true; });
+  return parts(
+      LigamentsOf::each, false, [](const LastLigament&) { return true; }, std::nullopt);
+}
+
+// What breaks of the detailed body; where none of what is left there is little, as elements that are coarse beside a
+// slender part leave out much of it, what has broken of the elements.
+// @param of_elements  none: they are apart already
+void Fracture::State::break_ligament(BodyCut& cut, LigamentsOf of,
+                                     const std::function<bool(const LastLigament&)>& breaks,
+                                     std::optional<LastLigament> of_elements) const {
+  const TriMesh all = join(cut.sheets);
+  auto ligaments = find_last_ligaments(body->detailed, all, body->crack_edge, of);
+  std::erase_if(ligaments, [&](const LastLigament& ligament) { return !breaks(ligament); });
+  cut_ligament(cut, *body, settings, ligaments);
+  if (cut.parted()) return;
+  if (!of_elements) {
+    auto seen =
+        find_last_ligaments(body->surface, fine.surface(), body->crack_edge, LigamentsOf::each_and_all);
+    const auto apart = std::find_if(seen.begin(), seen.end(),
+                                    [](const LastLigament& ligament) { return ligament.faces.empty(); });
+    if (apart == seen.end()) return;
+    of_elements = std::move(*apart);
+  }
+  if (auto same = find_same_ligament(body->detailed, all, body->crack_edge, *of_elements))
+    cut_ligament(cut, *body, settings, {*std::move(same)});
 }
 
 // The more often cutting was in vain, the longer it waits for more to have cracked: what cannot be cut cleanly
 // stays so for a while, and each try costs as much as many frames. The last chance is always taken.
 bool Fracture::State::parts(LigamentsOf of, bool at_end,
-                            const std::function<bool(const LastLigament&)>& breaks) {
+                            const std::function<bool(const LastLigament&)>& breaks,
+                            std::optional<LastLigament> of_elements) {
   if (!at_end && frame < cut_again) return false;
   BodyCut cut = cut_body(*body, settings, visible_sheets());
-  if (!cut.parted()) cut_ligament(cut, *body, settings, of, breaks);
+  if (!cut.parted()) break_ligament(cut, of, breaks, std::move(of_elements));
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
   if (!parted) cut_again = frame + ++vain_cuts;
   return parted.has_value();
@@ -185,7 +214,7 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge, of);
   const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
   if (first == ligaments.end()) return false;
-  return is_told(first->smaller_part) || parts(of, at_end, breaks);
+  return is_told(first->smaller_part) || parts(of, at_end, breaks, *first);
 }
 
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.
@@ -194,7 +223,8 @@ bool Fracture::State::start_crack(StepReport& report) {
   if (sites.empty()) return false;
   append_part(crack.sheet, oriented_like(crack.sheet, disc_sheet(sites[0])));
   ++new_cracks;
-  if (const auto said = clamp_warning(*body, sites[0].center)) report.warnings.push_back(*said);
+  for (const auto& said : {clamp_warning(*body, sites[0].center), outline_warning(*body, sites[0].center)})
+    if (said) report.warnings.push_back(*said);
   if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
   sheets.reset();
   fine.append_parts(crack.sheet);

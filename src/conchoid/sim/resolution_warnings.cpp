@@ -9,6 +9,7 @@
 
 #include "conchoid/mesh/bores.hpp"
 #include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/wall_thickness.hpp"
 #include "conchoid/remesh/wall_resolution.hpp"
 #include "conchoid/sim/body_elements.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 constexpr double edges_per_wall = 2, edges_per_radius = 2;
 constexpr double rounding = 1.03;  // of the value that is advised, to two digits
 constexpr double least_rows = 1.5;
+constexpr double least_like = 0.75;   // thickness of the elements over the body's, or its inverse
+constexpr double edges_per_part = 3;  // beside a round part's diameter: they leave out a tenth of it
 
 /// @param length  beside which round-off is nothing [m]
 std::string place(const Vec3& x, double length) {
@@ -114,6 +117,26 @@ std::vector<std::string> element_warnings(const PreparedBody& body) {
   if (!walls) return {};
   if (body.quadratic) return quadratic_warnings(*walls);
   return {walls->text()};
+}
+
+std::optional<std::string> outline_warning(const PreparedBody& body, const Vec3& x) {
+  if (body.infinite() ||
+      (body.surface.corners == body.detailed.corners && body.surface.positions == body.detailed.positions))
+    return std::nullopt;
+  const double far = bounding_box(body.detailed).diagonal();
+  const auto thickness_at = [&](const TriMesh& mesh) {
+    const auto hit = ClosestPointTree(mesh).closest(x);
+    return WallProbe(mesh).thickness(hit.point, unit_normal(mesh, hit.triangle), far);
+  };
+  const double elements = thickness_at(body.surface), detailed = thickness_at(body.detailed);
+  if (!std::isfinite(elements) || !std::isfinite(detailed) ||
+      std::min(elements / detailed, detailed / elements) >= least_like)
+    return std::nullopt;
+  return fmt::format(
+      "the crack at {} starts where the body is {:.2g} m thick and its boundary elements are {:.2g} m: their "
+      "stress is "
+      "not the body's; use a larger body.remesh, or a [[region]] with edge = {:.2g} there",
+      place(x + body.origin, detailed), detailed, elements, detailed / edges_per_part);
 }
 
 std::vector<std::string> resolution_warnings(const PreparedBody& body, const CrackState& crack,

@@ -19,22 +19,25 @@ double cell_size(const TriMesh& body, double target_edge) {
   return std::max(target_edge / kCellsPerEdge, std::cbrt(volume / kMostCells));
 }
 
+// The cell around a place; none beyond the grid.
+std::optional<std::size_t> cell_at(const CellGrid& grid, const Vec3& place) {
+  std::array<int, 3> at{};
+  for (int a = 0; a < 3; ++a) {
+    at[a] = static_cast<int>(std::lround(place[a]));
+    if (at[a] < 0 || at[a] >= grid.count()[a]) return std::nullopt;
+  }
+  return grid.cell(at[0], at[1], at[2]);
+}
+
 // Cells within kLigamentBand of the cracks' ends inside of the body.
 std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
   std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
   const double reach = kLigamentBand * target_edge / grid.size();
   for (const Edge& e : boundary_edges(sheets)) {
     const Vec3 x = grid.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
-    std::array<int, 3> at{};
-    bool in_grid = true;
-    for (int a = 0; a < 3; ++a) {
-      at[a] = static_cast<int>(std::lround(x[a]));
-      in_grid = in_grid && at[a] >= 0 && at[a] < grid.count()[a];
-    }
-    if (!in_grid) continue;
-    const std::size_t here = grid.cell(at[0], at[1], at[2]);
-    if (!grid.inside(here) || done[here]) continue;
-    done[here] = true;
+    const auto here = cell_at(grid, x);
+    if (!here || !grid.inside(*here) || done[*here]) continue;
+    done[*here] = true;
     grid.mark_near(x, reach, band);
   }
   return band;
@@ -66,6 +69,25 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
   return faces;
 }
 
+// None where it parts off too little.
+std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
+                                        const ClosestPointTree& walls) {
+  remove_specks(*grid, partition.side);
+  const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
+  const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
+  if (std::min(upper, lower) < kFewestCells) return std::nullopt;
+  LastLigament out;
+  out.grid = std::move(grid);
+  out.partition = std::move(partition);
+  out.faces = broken_faces(*out.grid, out.partition);
+  double widest = 0;
+  for (const Vec3& x : out.faces)
+    widest = std::max(widest, walls.closest(x).squared_distance);
+  out.half_width = std::sqrt(widest);
+  out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(std::min(upper, lower));
+  return out;
+}
+
 }  // namespace
 
 std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge,
@@ -75,7 +97,6 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
   const std::vector<int> part = connected_parts(sheets);
   const ClosestPointTree walls(join({body, sheets}));
-  const double cell_volume = std::pow(grid->size(), 3);
   std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
@@ -83,21 +104,26 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   for (int p = 0; p < parts + (together ? 1 : 0); ++p) {
     for (std::size_t t = 0; t < crack.size(); ++t)
       crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == p;
-    CellPartition partition = minimal_cut(*grid, crack, band);
-    remove_specks(*grid, partition.side);
-    const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
-    const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
-    if (std::min(upper, lower) < kFewestCells) continue;
-    std::vector<Vec3> faces = broken_faces(*grid, partition);
-    double widest = 0;
-    for (const Vec3& x : faces)
-      widest = std::max(widest, walls.closest(x).squared_distance);
-    found.push_back({grid, std::move(partition), std::move(faces), std::sqrt(widest),
-                     cell_volume * static_cast<double>(std::min(upper, lower))});
+    if (auto ligament = ligament_of(grid, minimal_cut(*grid, crack, band), walls))
+      found.push_back(*std::move(ligament));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const LastLigament& x, const LastLigament& y) { return x.half_width < y.half_width; });
   return found;
+}
+
+std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMesh& sheets, double target_edge,
+                                               const LastLigament& elsewhere) {
+  if (sheets.corners.empty()) return std::nullopt;
+  const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
+  const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
+  std::vector<std::int8_t> known(grid->cells(), 0);
+  for (std::size_t c = 0; c < grid->cells(); ++c)
+    if (grid->inside(c) && !band[c])
+      if (const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(c))))
+        known[c] = elsewhere.partition.side[*there];
+  const std::vector<bool> all(sheets.triangle_count(), true);
+  return ligament_of(grid, minimal_cut(*grid, all, band, known), ClosestPointTree(join({body, sheets})));
 }
 
 }  // namespace conchoid

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "conchoid/crack/closing/minimal_cut.hpp"
 #include "conchoid/mesh/box_tree.hpp"
@@ -29,6 +30,12 @@ enum class LigamentsOf { each, each_and_all };
 /// @param sheets  all cracks, as fine as they are known; may stick out of the body
 std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh& sheets, double target_edge,
                                               LigamentsOf of = LigamentsOf::each);
+
+/// The same ligament in another body, or with other sheets: what lies beyond kLigamentBand of the cracks' fronts keeps the
+/// side it has `elsewhere`, however much is left between. For a detailed body whose boundary elements have come apart:
+/// where they are coarse beside a slender part, they leave out much of it. None where nothing would part it.
+std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMesh& sheets, double target_edge,
+                                               const LastLigament& elsewhere);
 
 /// How a ligament's surface lies over the cracks it joins.
 struct LigamentOverlap {

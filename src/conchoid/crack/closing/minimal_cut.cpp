@@ -12,7 +12,8 @@
 namespace conchoid {
 namespace {
 
-constexpr int kFaceCost = 20;  // of one face of a cell, in whole numbers: exact, whatever the order of sums
+constexpr int kFaceCost = 20;    // of one face of a cell, in whole numbers: exact, whatever the order of sums
+constexpr int kNever = 1 << 29;  // beyond the cost of all faces
 
 using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
                                                  boost::no_property, std::int32_t, std::int32_t>;
@@ -102,18 +103,21 @@ class NetworkBuilder {
 
 }  // namespace
 
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
-                          const std::vector<bool>& band) {
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<bool>& band,
+                          const std::vector<std::int8_t>& known) {
   throw_if_interrupted();
   const Vertices vertices = vertices_of(grid, band);
   const std::vector<std::int32_t>& vertex = vertices.of_cell;
   const std::int32_t count = vertices.count, source = count, sink = count + 1;
   NetworkBuilder builder(static_cast<std::size_t>(count) + 2);
   std::vector<int> surplus(static_cast<std::size_t>(count), 0);
+  std::vector<char> up(static_cast<std::size_t>(count), 0), down(up);  // that cells are known to lie there
   const std::vector<int> seen = faces_seen(grid, crack);
   for (std::size_t c = 0; c < grid.cells(); ++c) {
     if (vertex[c] < 0) continue;
-    surplus[static_cast<std::size_t>(vertex[c])] += seen[c];
+    const auto v = static_cast<std::size_t>(vertex[c]);
+    surplus[v] += seen[c];
+    if (!known.empty() && known[c] != 0) (known[c] > 0 ? up : down)[v] = 1;
     for (int axis = 0; axis < 3; ++axis)
       if (const std::size_t d = grid.next(c, axis);
           vertex[d] >= 0 && vertex[d] != vertex[c] && grid.open(CellGrid::edge(c, axis)))
@@ -122,6 +126,8 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
   const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
   for (std::int32_t v = 0; v < count; ++v) {
     const int faces = surplus[static_cast<std::size_t>(v)];
+    const char above = up[static_cast<std::size_t>(v)], below = down[static_cast<std::size_t>(v)];
+    if (above != below) builder.connect(above ? source : v, above ? v : sink, kNever, 0);
     if (faces > 0) builder.connect(source, v, unused * faces, 0);
     if (faces < 0) builder.connect(v, sink, -unused * faces, 0);
   }

@@ -21,7 +21,8 @@ struct CellPartition {
 /// algorithms (2004).
 /// @param crack  per triangle of the grid's sheets: whether it belongs to the crack
 /// @param band   per cell
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
-                          const std::vector<bool>& band);
+/// @param known  per cell beyond the band its side, 1 or −1, where that is settled, else 0; empty: nowhere
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<bool>& band,
+                          const std::vector<std::int8_t>& known = {});
 
 }  // namespace conchoid
