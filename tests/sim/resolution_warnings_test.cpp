@@ -114,27 +114,27 @@ TEST(ResolutionWarnings, ACrackOfOneRowIsWarnedOfAndOneOfTwoIsFair) {
   RecordProperty("two", test::text(two));
 }
 
-// A round column of which few elements leave a prism: said where a crack starts.
+// A round column, of which a square prism leaves out a third and one of eight sides hardly anything.
 TEST(ResolutionWarnings, ElementsThatAreSlimmerThanTheBodyAreSaid) {
   const test::TemporaryFolder folder;
-  const TriMesh column =
-      shapes::turned(shapes::divided({{0, -1}, {0.2, -1}, {0.2, 1}, {0, 1}}, {2, 20, 2}, false), 24, false);
-  const auto warning = [&](int elements) {
-    const std::string text = pulled_text(folder, column, 0.05);
-    const PreparedBody body = prepare(test::scene_from_text("[body]\nremesh = " + std::to_string(elements) +
-                                                            text.substr(text.find("\nmesh"))));
-    const auto& c = body.surface.corners;
-    std::size_t middle = 0;
-    for (std::size_t t = 0; t < c.size(); ++t)
-      if (std::abs(centroid(body.surface, TriId(t)).z()) <
-          std::abs(centroid(body.surface, TriId(middle)).z()))
-        middle = t;
-    return outline_warning(body, centroid(body.surface, TriId(middle)));
+  const auto column = [](int sides) {
+    return shapes::turned(shapes::divided({{0, -1}, {0.2, -1}, {0.2, 1}, {0, 1}}, {2, 20, 2}, false), sides,
+                          false);
   };
-  const auto coarse = warning(24);
+  const auto warning = [&](int sides) {
+    PreparedBody body = prepare(
+        test::scene_from_text(test::mesh_body_text(test::write_mesh_in(folder, "column.obj", column(sides))) +
+                              test::material_text() + test::resolution_text(0.05, 0.01)));
+    EXPECT_FALSE(outline_warning(body, {0.2, 0, 0}));
+    body.detailed = column(48);
+    return outline_warning(body, {0.15, 0.15, 0.03});
+  };
+  const auto coarse = warning(4);
   ASSERT_TRUE(coarse);
-  EXPECT_NE(coarse->find("where the body is 0.4 m thick"), std::string::npos) << *coarse;
-  EXPECT_FALSE(warning(600));
+  EXPECT_NE(coarse->find("where the body is 0.38 m thick and its boundary elements are 0.28 m"),
+            std::string::npos)
+      << *coarse;
+  EXPECT_FALSE(warning(8));
 }
 
 TEST(ResolutionWarnings, AnEdgeOfARegionGoesWithRemesh) {
