@@ -6,12 +6,14 @@
 #include <set>
 #include <vector>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/random.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/predicted_opening.hpp"
 #include "conchoid/sim/prepared_body.hpp"
+#include "conchoid/surface/separation.hpp"
 #include "scenes.hpp"
 
 // The surface is divided near cracks before it is cut; what that adds to the boundary elements stays when a crack grows.
@@ -181,6 +183,38 @@ TEST(CrackDivision, ASlightSliverDoesNotMoveACrackThatHasGrown) {
   }
   EXPECT_GT(moved, 1);
   EXPECT_EQ(kept, moved);
+}
+
+// A corner that comes off would float; held, the crack beside it opens as without the cut through the corner.
+TEST(CrackDivision, ACrumbThatComesOffIsHeld) {
+  const TriMesh disc = disc_crack({0, 0, 0}, Vec3::UnitZ(), 0.25, {.edge = kEdge});
+  const TriMesh corner =
+      disc_crack(Vec3::Constant(1.32 / 3), Vec3(1, 1, 1).normalized(), 0.4, {.edge = kEdge});
+  const auto largest_opening = [](const CrackState& crack) {
+    CrackedBody body(held_cube(), pulled());
+    body.set_crack(crack.cut, crack.division);
+    body.solve();
+    double largest = 0;
+    for (const Vec3& u : body.opening())
+      largest = std::max(largest, u.norm());
+    return largest;
+  };
+  CrackState alone, both;
+  append_part(alone.sheet, disc);
+  update_crack(alone, cube(), kEdge);
+  append_part(both.sheet, disc);
+  append_part(both.sheet, corner);
+  update_crack(both, cube(), kEdge);
+  const double off = std::pow(0.18, 3) / 6;
+  EXPECT_EQ(count_pieces(both.cut), 2u);
+  EXPECT_THROW(largest_opening(both), SingularSystem);
+  EXPECT_FALSE(hold_crumbs(both, 0.5 * off));
+  EXPECT_TRUE(hold_crumbs(both, 2 * off));
+  EXPECT_EQ(count_pieces(both.cut), 1u);
+  EXPECT_EQ(both.trimmed.triangle_count(), alone.trimmed.triangle_count());
+  EXPECT_EQ(both.points.size(), alone.points.size());
+  EXPECT_NEAR(largest_opening(both), largest_opening(alone), 2e-3 * largest_opening(alone));
+  EXPECT_FALSE(hold_crumbs(both, 1));
 }
 
 TEST(CrackDivision, NothingIsDividedForWhatIsNotSolved) {

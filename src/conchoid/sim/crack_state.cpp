@@ -12,6 +12,7 @@
 #include "conchoid/intersect/manifold_part.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/longest_edge_bisection.hpp"
+#include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
 namespace {
@@ -164,15 +165,9 @@ IdVector<NodeId, Vec3> area_vectors_of_whole_sheet(const CutComplex& cut, const 
   return sum;
 }
 
-}  // namespace
-
-void update_crack(CrackState& state, const TriMesh& surface, double crack_edge, NearCracks near) {
-  const bool infinite = surface.corners.empty();
-  const TriMesh sheet = infinite ? state.sheet.mesh : embedded_part(state.sheet.mesh);
-  if (infinite)
-    state.cut = uncut_sheet(sheet);
-  else
-    cut_for_elements(state, surface, sheet, crack_edge, near);
+// What the cut says of the sheet.
+// @param sheet  that was cut
+void read_cut(CrackState& state, const TriMesh& sheet) {
   state.trimmed = {state.cut.positions, state.cut.sheet};
   state.fronts = find_fronts(state.trimmed, state.cut.mouth,
                              state.sheet.frame == 0 ? FrontNormals::carried_on : FrontNormals::facets,
@@ -206,6 +201,46 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge, 
       state.points.push_back(point);
     }
   }
+}
+
+}  // namespace
+
+void update_crack(CrackState& state, const TriMesh& surface, double crack_edge, NearCracks near) {
+  const bool infinite = surface.corners.empty();
+  const TriMesh sheet = infinite ? state.sheet.mesh : embedded_part(state.sheet.mesh);
+  if (infinite)
+    state.cut = uncut_sheet(sheet);
+  else
+    cut_for_elements(state, surface, sheet, crack_edge, near);
+  read_cut(state, sheet);
+}
+
+bool hold_crumbs(CrackState& state, double volume) {
+  CutComplex& cut = state.cut;
+  if (cut.surface.empty()) return false;
+  const Shells shells = glue(cut);
+  const auto of_crumb = [&](std::size_t face) {
+    return shells.volume[static_cast<std::size_t>(shells.solid[face])] < volume;
+  };
+  IdVector<TriId, std::array<NodeId, 3>> sheet;
+  std::vector<TriId> parent;
+  std::vector<Edge> edges;
+  for (std::size_t s = 0; s < cut.sheet.size(); ++s) {
+    const std::size_t upper = shells.surface_faces + s, lower = shells.opposite(upper);
+    if (shells.solid[upper] != shells.solid[lower] && (of_crumb(upper) || of_crumb(lower))) continue;
+    const auto& c = cut.sheet[TriId(s)];
+    sheet.push_back(c);
+    parent.push_back(cut.sheet_parent[s]);
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.emplace_back(c[k], c[(k + 1) % 3]);
+  }
+  if (sheet.size() == cut.sheet.size()) return false;
+  std::sort(edges.begin(), edges.end());
+  std::erase_if(cut.mouth, [&](const Edge& e) { return !std::binary_search(edges.begin(), edges.end(), e); });
+  cut.sheet = std::move(sheet);
+  cut.sheet_parent = std::move(parent);
+  read_cut(state, embedded_part(state.sheet.mesh));
+  return true;
 }
 
 std::vector<FrontPoint> ligament_points(const CrackState& state) {

@@ -41,6 +41,11 @@ enum class NearCracks : unsigned char { divided, as_it_is };
 void update_crack(CrackState& state, const TriMesh& surface, double crack_edge,
                   NearCracks near = NearCracks::divided);
 
+/// Lets hang on what the cracks part from the boundary elements if it is below `volume`: there the sheet is left out of
+/// the cut, as a part that nothing holds has no equilibrium. Whether there was such a crumb.
+/// @param volume  [m³]
+bool hold_crumbs(CrackState& state, double volume);
+
 /// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last
 /// ligaments at corners, narrower than a triangle. They have no node inside to read SIFs at, and run through.
 std::vector<FrontPoint> ligament_points(const CrackState& state);

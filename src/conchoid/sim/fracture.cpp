@@ -33,6 +33,7 @@ constexpr int kMostCarried = 8;           // frames in a row without a solution;
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
 constexpr int kUnresolvedFrames = 3;      // in a row, after which what is left to break is looked at
 constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
+constexpr double kLargestCrumb = 1e-2;        // × the body
 constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
 
 CrackSheet initial_sheet(const PreparedBody& body) {
@@ -140,6 +141,7 @@ struct Fracture::State {
   bool start_crack(StepReport& report);
   void start_cracks(StepReport& report);
   void compute_openings(StepReport& report);
+  std::vector<FrontOpening> open_crack();
   std::vector<FrontStep> decide(StepReport& report);
   void compute_frame(const Fracture& self, StepReport& report);
 };
@@ -261,10 +263,18 @@ void Fracture::State::start(StepReport& report) {
   if (separated()) stop = StopReason::separated;
 }
 
+// A crumb that has come off the boundary elements, though not off the body, leaves their system singular.
+std::vector<FrontOpening> Fracture::State::open_crack() try {
+  return source().open(crack);
+} catch (const SingularSystem&) {
+  if (!hold_crumbs(crack, kLargestCrumb * enclosed_volume(body->surface))) throw;
+  return source().open(crack);
+}
+
 // A later frame whose system is singular is carried, a few times in a row.
 void Fracture::State::compute_openings(StepReport& report) {
   try {
-    openings = source().open(crack);
+    openings = open_crack();
     carried = 0;
     report.source = solved() ? bem.name() : source().name();
     if (const ContactReport& contact = bem.body().contact(); solved() && !contact.converged)
