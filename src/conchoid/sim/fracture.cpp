@@ -132,7 +132,8 @@ struct Fracture::State {
   bool separated();
   bool parts(LigamentsOf of, bool at_end, const std::function<bool(const LastLigament&)>& breaks,
              std::optional<LastLigament> of_elements);
-  void break_ligament(BodyCut& cut, LigamentsOf of, const std::function<bool(const LastLigament&)>& breaks,
+  void break_ligament(BodyCut& cut, std::vector<LastLigament> ligaments,
+                      const std::function<bool(const LastLigament&)>& breaks,
                       std::optional<LastLigament> of_elements) const;
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
@@ -163,12 +164,11 @@ bool Fracture::State::separated() {
 
 // What breaks of the detailed body; where none of what is left there is little, as elements that are coarse beside a
 // slender part leave out much of it, what has broken of the elements.
+// @param ligaments    of the detailed body
 // @param of_elements  none: they are apart already
-void Fracture::State::break_ligament(BodyCut& cut, LigamentsOf of,
+void Fracture::State::break_ligament(BodyCut& cut, std::vector<LastLigament> ligaments,
                                      const std::function<bool(const LastLigament&)>& breaks,
                                      std::optional<LastLigament> of_elements) const {
-  const TriMesh all = join(cut.sheets);
-  auto ligaments = find_last_ligaments(body->detailed, all, body->crack_edge, of);
   std::erase_if(ligaments, [&](const LastLigament& ligament) { return !breaks(ligament); });
   cut_ligament(cut, *body, settings, ligaments);
   if (cut.parted()) return;
@@ -180,7 +180,7 @@ void Fracture::State::break_ligament(BodyCut& cut, LigamentsOf of,
     if (apart == seen.end()) return;
     of_elements = std::move(*apart);
   }
-  if (auto same = find_same_ligament(body->detailed, all, body->crack_edge, *of_elements))
+  if (auto same = find_same_ligament(body->detailed, join(cut.sheets), body->crack_edge, *of_elements))
     cut_ligament(cut, *body, settings, {*std::move(same)});
 }
 
@@ -190,8 +190,23 @@ bool Fracture::State::parts(LigamentsOf of, bool at_end,
                             const std::function<bool(const LastLigament&)>& breaks,
                             std::optional<LastLigament> of_elements) {
   if (!at_end && frame < cut_again) return false;
-  BodyCut cut = cut_body(*body, settings, visible_sheets());
-  if (!cut.parted()) break_ligament(cut, of, breaks, std::move(of_elements));
+  const std::vector<TriMesh>& visible = visible_sheets();
+  BodyCut cut;
+  std::vector<LastLigament> ligaments;
+  const auto find = [&] {
+    ligaments = find_last_ligaments(body->detailed, join(visible), body->crack_edge, of);
+  };
+  const bool expected = of_elements.has_value();  // that the sheets alone do not part it: side by side then
+  parallel_for(expected ? 2 : 1, 1, [&](std::size_t task, std::size_t) {
+    if (task == 0)
+      cut = cut_body(*body, settings, visible);
+    else
+      find();
+  });
+  if (!cut.parted()) {
+    if (!expected) find();
+    break_ligament(cut, std::move(ligaments), breaks, std::move(of_elements));
+  }
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
   if (!parted) cut_again = frame + ++vain_cuts;
   return parted.has_value();
