@@ -180,6 +180,8 @@ TEST_P(RandomBreaks, EndInPiecesOrAtRest) {
   if (stop == StopReason::arrested) {
     EXPECT_LE(largest_drive(result, scene.material.toughness), 1) << text;
   }
+  for (std::size_t i = 0; i < result.document.timings.size(); ++i)
+    ASSERT_EQ(result.document.timings[i].frame, static_cast<int>(i) + 1) << text;
   double volume = 0;
   for (const Fragment& f : result.fragments) {
     EXPECT_TRUE(f.watertight) << text;

@@ -27,6 +27,7 @@ bool moves(const Fracture& fracture) {
   const bool homogeneous = fracture.body().toughness.homogeneous();
   for (const FrontDecision& d : fracture.decisions())
     if (d.length > 0 || (!homogeneous && d.drive > 0)) return true;
+  if (!ligament_points(fracture.crack()).empty()) return true;
   const auto allowed = static_cast<std::size_t>(fracture.settings().max_cracks);
   return fracture.new_cracks() > 0 ||
          (fracture.solved() && fracture.new_cracks() < allowed &&

@@ -162,7 +162,7 @@ bool Fracture::State::separated() {
       LigamentsOf::each, false, [](const LastLigament&) { return true; }, std::nullopt);
 }
 
-// What breaks of the detailed body; where none of what is left there is little, as elements that are coarse beside a
+// What breaks of the detailed body; where nothing that is left there is little, as elements that are coarse beside a
 // slender part leave out much of it, what has broken of the elements.
 // @param ligaments    of the detailed body
 // @param of_elements  none: they are apart already
@@ -170,8 +170,7 @@ void Fracture::State::break_ligament(BodyCut& cut, std::vector<LastLigament> lig
                                      const std::function<bool(const LastLigament&)>& breaks,
                                      std::optional<LastLigament> of_elements) const {
   std::erase_if(ligaments, [&](const LastLigament& ligament) { return !breaks(ligament); });
-  cut_ligament(cut, *body, settings, ligaments);
-  if (cut.parted()) return;
+  if (!ligaments.empty()) return cut_ligament(cut, *body, settings, ligaments);
   if (!of_elements) {
     auto seen =
         find_last_ligaments(body->surface, fine.surface(), body->crack_edge, LigamentsOf::each_and_all);
