@@ -8,6 +8,7 @@
 
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/union_find.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 
 namespace conchoid {
@@ -22,10 +23,8 @@ std::vector<std::pair<Edge, int>> unbalanced_edges(const TriMesh& mesh) {
       const NodeId p = c[k], q = c[(k + 1) % 3];
       if (p != q) sides.emplace_back(Edge(p, q), p < q ? 1 : -1);
     }
-  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
-    throw_if_interrupted();
-    return a < b;
-  });
+  throw_if_interrupted();
+  sort_by_edge(sides, mesh.node_count(), [](const auto& side) { return side.first; });
   std::vector<std::pair<Edge, int>> sums;
   for (std::size_t i = 0; i < sides.size();) {
     int sum = 0;

@@ -10,6 +10,7 @@
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/sim/broken_pieces.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/mended_fragment.hpp"
@@ -41,10 +42,15 @@ std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& o
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
     normal += area_vector(sheet, TriId(t));
   Pieces cut = cut_into_pieces(fracture, output, shift * normal.normalized());
-  for (Fragment& f : cut.fragments) {
-    if (!is_solid(f)) mend_fragment(f);
-    if (!is_solid(f)) return std::nullopt;
-  }
+  std::vector<char> solid(cut.fragments.size());
+  parallel_for(solid.size(), 1, [&](std::size_t i, std::size_t) {
+    Fragment& f = cut.fragments[i];
+    solid[i] = is_solid(f);
+    if (solid[i]) return;
+    mend_fragment(f);
+    solid[i] = is_solid(f);
+  });
+  if (std::find(solid.begin(), solid.end(), 0) != solid.end()) return std::nullopt;
   return cut;
 }
 
