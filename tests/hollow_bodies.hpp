@@ -30,6 +30,11 @@ inline TriMesh tube(double outer, double inner, double length, int along, int ar
                 around, true);
 }
 
+/// Radius 0.2, 2 high.
+inline TriMesh column(int sides) {
+  return turned(divided({{0, -1}, {0.2, -1}, {0.2, 1}, {0, 1}}, {2, 20, 2}, false), sides, false);
+}
+
 /// Open at the top; outer radius 1, wall 0.4, 4 high.
 inline TriMesh cup(int around = 20) {
   return turned(divided({{0, -2}, {1, -2}, {1, 2}, {0.6, 2}, {0.6, -1.5}, {0, -1.5}}, {2, 6, 1, 5, 2}, false),

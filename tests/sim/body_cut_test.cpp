@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "conchoid/core/random.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
+#include "hollow_bodies.hpp"
 #include "intersect/cut_shapes.hpp"
 #include "scenes.hpp"
 
@@ -95,6 +98,27 @@ TEST(BodyCut, GoesPastCracksTooRaggedToBeJoined) {
   for (const TriMesh& sheet : cut.sheets)
     for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
       EXPECT_GT(centroid(sheet, TriId(t)).cwiseAbs().maxCoeff(), 0.5);
+}
+
+// A round column whose boundary elements are a square prism: a crack through the prism leaves half as much of the column
+// as it has parted, too much for a ligament, but the elements are apart.
+TEST(BodyCut, WhatComesOffTheElementsComesOffTheBody) {
+  const test::TemporaryFolder folder;
+  PreparedBody body = prepare(test::scene_from_text(
+      test::mesh_body_text(test::write_mesh_in(folder, "prism.obj", shapes::column(4))) +
+      test::material_text() + test::resolution_text(0.05, 0.01)));
+  body.detailed = shapes::column(48);
+  const TriMesh sheet = shapes::sheet(-0.145, 0.145, -0.145, 0.145, 30, 30, [](double u, double v) {
+    return Vec3((u - v) / std::sqrt(2.0), (u + v) / std::sqrt(2.0), 0.013);
+  });
+  const auto all = [](const LastLigament&) { return true; };
+  EXPECT_TRUE(find_last_ligaments(body.detailed, sheet, body.crack_edge).empty());
+  const BodyCut cut = cut_or_break(body, {}, {sheet}, sheet, {LigamentsOf::each, all, std::nullopt});
+  ASSERT_EQ(cut.fragments.size(), 2u);
+  const double volume = enclosed_volume(body.detailed);
+  EXPECT_NEAR(cut.fragments[0].volume + cut.fragments[1].volume, volume, 1e-9 * volume);
+  EXPECT_NEAR(cut.fragments[1].volume, (1 - 0.013) / 2 * volume, 0.01 * volume);
+  EXPECT_FALSE(cut_or_break(body, {}, {sheet}, {}, {LigamentsOf::each, all, std::nullopt}).parted());
 }
 
 }  // namespace

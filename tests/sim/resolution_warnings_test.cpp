@@ -117,16 +117,12 @@ TEST(ResolutionWarnings, ACrackOfOneRowIsWarnedOfAndOneOfTwoIsFair) {
 // A round column, of which a square prism leaves out a third and one of eight sides hardly anything.
 TEST(ResolutionWarnings, ElementsThatAreSlimmerThanTheBodyAreSaid) {
   const test::TemporaryFolder folder;
-  const auto column = [](int sides) {
-    return shapes::turned(shapes::divided({{0, -1}, {0.2, -1}, {0.2, 1}, {0, 1}}, {2, 20, 2}, false), sides,
-                          false);
-  };
   const auto warning = [&](int sides) {
-    PreparedBody body = prepare(
-        test::scene_from_text(test::mesh_body_text(test::write_mesh_in(folder, "column.obj", column(sides))) +
-                              test::material_text() + test::resolution_text(0.05, 0.01)));
+    PreparedBody body = prepare(test::scene_from_text(
+        test::mesh_body_text(test::write_mesh_in(folder, "column.obj", shapes::column(sides))) +
+        test::material_text() + test::resolution_text(0.05, 0.01)));
     EXPECT_FALSE(outline_warning(body, {0.2, 0, 0}));
-    body.detailed = column(48);
+    body.detailed = shapes::column(48);
     return outline_warning(body, {0.15, 0.15, 0.03});
   };
   const auto coarse = warning(4);

@@ -173,6 +173,19 @@ class LigamentCut {
   LigamentSurfaces surfaces_;
 };
 
+// Where nothing that is left of the detailed body is little, as elements that are coarse beside a slender part leave out
+// much of it: what has broken of the elements.
+// @param broken  none: they are apart already
+std::optional<LastLigament> ligament_like_elements(const PreparedBody& body, const TriMesh& sheets,
+                                                   const TriMesh& of_elements,
+                                                   const std::optional<LastLigament>& broken) {
+  if (broken) return find_same_ligament(body.detailed, sheets, body.crack_edge, *broken);
+  for (const LastLigament& seen :
+       find_last_ligaments(body.surface, of_elements, body.crack_edge, LigamentsOf::each_and_all))
+    if (seen.faces.empty()) return find_same_ligament(body.detailed, sheets, body.crack_edge, seen);
+  return std::nullopt;
+}
+
 }  // namespace
 
 double slit_width(const PreparedBody& body) {
@@ -211,6 +224,30 @@ void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
     if (by.over_ends()) return;
     if (ligament.smaller_part >= least && by.between_sides()) return;
   }
+}
+
+BodyCut cut_or_break(const PreparedBody& body, const RunSpec& run, const std::vector<TriMesh>& sheets,
+                     const TriMesh& of_elements, const WhatBreaks& what) {
+  BodyCut cut;
+  std::vector<LastLigament> ligaments;
+  const auto find = [&] {
+    ligaments = find_last_ligaments(body.detailed, join(sheets), body.crack_edge, what.of);
+    std::erase_if(ligaments, [&](const LastLigament& ligament) { return !what.breaks(ligament); });
+  };
+  const bool expected = what.broken.has_value();  // that the sheets alone do not part it: side by side then
+  parallel_for(expected ? 2 : 1, 1, [&](std::size_t task, std::size_t) {
+    if (task == 0)
+      cut = cut_body(body, run, sheets);
+    else
+      find();
+  });
+  if (cut.parted()) return cut;
+  if (!expected) find();
+  if (ligaments.empty())
+    if (auto same = ligament_like_elements(body, join(sheets), of_elements, what.broken))
+      ligaments.push_back(*std::move(same));
+  cut_ligament(cut, body, run, ligaments);
+  return cut;
 }
 
 }  // namespace conchoid

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,5 +41,19 @@ BodyCut cut_body(const PreparedBody& body, const RunSpec& run, std::vector<TriMe
 /// between its two sides, which stands for the sheets near it, where no less than run.smallest_body comes off.
 void cut_ligament(BodyCut& cut, const PreparedBody& body, const RunSpec& run,
                   const std::vector<LastLigament>& ligaments);
+
+/// What may break of a body that its cracks have not cut quite.
+struct WhatBreaks {
+  LigamentsOf of = LigamentsOf::each;
+  std::function<bool(const LastLigament&)> breaks;  ///< of the detailed body
+  std::optional<LastLigament> broken;  ///< of the boundary elements; none: they are apart already
+};
+
+/// Cuts the body by the sheets and, where that does not part it, along what is left to break; where nothing that is left
+/// would break of the detailed body, along what has broken of its boundary elements.
+/// @param sheets       as they are seen
+/// @param of_elements  as they have moved
+BodyCut cut_or_break(const PreparedBody& body, const RunSpec& run, const std::vector<TriMesh>& sheets,
+                     const TriMesh& of_elements, const WhatBreaks& what);
 
 }  // namespace conchoid

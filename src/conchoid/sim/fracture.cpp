@@ -130,11 +130,7 @@ struct Fracture::State {
   std::vector<TriMesh> unfold_visible_sheets() const;
   bool is_told(double volume);
   bool separated();
-  bool parts(LigamentsOf of, bool at_end, const std::function<bool(const LastLigament&)>& breaks,
-             std::optional<LastLigament> of_elements);
-  void break_ligament(BodyCut& cut, std::vector<LastLigament> ligaments,
-                      const std::function<bool(const LastLigament&)>& breaks,
-                      std::optional<LastLigament> of_elements) const;
+  bool parts(bool at_end, WhatBreaks what);
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -158,54 +154,14 @@ bool Fracture::State::is_told(double volume) {
 bool Fracture::State::separated() {
   if (body->infinite() || !separates(crack.cut)) return false;
   if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
-  return parts(
-      LigamentsOf::each, false, [](const LastLigament&) { return true; }, std::nullopt);
-}
-
-// What breaks of the detailed body; where nothing that is left there is little, as elements that are coarse beside a
-// slender part leave out much of it, what has broken of the elements.
-// @param ligaments    of the detailed body
-// @param of_elements  none: they are apart already
-void Fracture::State::break_ligament(BodyCut& cut, std::vector<LastLigament> ligaments,
-                                     const std::function<bool(const LastLigament&)>& breaks,
-                                     std::optional<LastLigament> of_elements) const {
-  std::erase_if(ligaments, [&](const LastLigament& ligament) { return !breaks(ligament); });
-  if (!ligaments.empty()) return cut_ligament(cut, *body, settings, ligaments);
-  if (!of_elements) {
-    auto seen =
-        find_last_ligaments(body->surface, fine.surface(), body->crack_edge, LigamentsOf::each_and_all);
-    const auto apart = std::find_if(seen.begin(), seen.end(),
-                                    [](const LastLigament& ligament) { return ligament.faces.empty(); });
-    if (apart == seen.end()) return;
-    of_elements = std::move(*apart);
-  }
-  if (auto same = find_same_ligament(body->detailed, join(cut.sheets), body->crack_edge, *of_elements))
-    cut_ligament(cut, *body, settings, {*std::move(same)});
+  return parts(false, {LigamentsOf::each, [](const LastLigament&) { return true; }, std::nullopt});
 }
 
 // The more often cutting was in vain, the longer it waits for more to have cracked: what cannot be cut cleanly
 // stays so for a while, and each try costs as much as many frames. The last chance is always taken.
-bool Fracture::State::parts(LigamentsOf of, bool at_end,
-                            const std::function<bool(const LastLigament&)>& breaks,
-                            std::optional<LastLigament> of_elements) {
+bool Fracture::State::parts(bool at_end, WhatBreaks what) {
   if (!at_end && frame < cut_again) return false;
-  const std::vector<TriMesh>& visible = visible_sheets();
-  BodyCut cut;
-  std::vector<LastLigament> ligaments;
-  const auto find = [&] {
-    ligaments = find_last_ligaments(body->detailed, join(visible), body->crack_edge, of);
-  };
-  const bool expected = of_elements.has_value();  // that the sheets alone do not part it: side by side then
-  parallel_for(expected ? 2 : 1, 1, [&](std::size_t task, std::size_t) {
-    if (task == 0)
-      cut = cut_body(*body, settings, visible);
-    else
-      find();
-  });
-  if (!cut.parted()) {
-    if (!expected) find();
-    break_ligament(cut, std::move(ligaments), breaks, std::move(of_elements));
-  }
+  BodyCut cut = cut_or_break(*body, settings, visible_sheets(), fine.surface(), what);
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
   if (!parted) cut_again = frame + ++vain_cuts;
   return parted.has_value();
@@ -230,7 +186,7 @@ bool Fracture::State::ligament_breaks(bool at_end) {
   const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge, of);
   const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
   if (first == ligaments.end()) return false;
-  return is_told(first->smaller_part) || parts(of, at_end, breaks, *first);
+  return is_told(first->smaller_part) || parts(at_end, {of, breaks, *first});
 }
 
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.
