@@ -4,8 +4,8 @@
     bench/curves.py BUILD [--sizes N…] [--table FILE] [--picture FILE] [--rounds N]
 
 The unit cube remeshed to N triangles, r̄ = 0.1, pulled askew (inertia relief), with a crack in its side that divides it; two threads, least of
-`--rounds`. Set-up is what a run needs before its first frame: the time of `conchoid stress` on the same scene without the crack. A frame is what is left of a run over its frames, and the opening's part of
-it; predicted runs solve their first frame, so theirs are means without it. c is the time of bench/calibrate.cpp, taken before each size.
+`--rounds`. Set-up is what a run needs before its first frame: the time of `conchoid stress` on the same scene without the crack. A frame is
+what is left of a run over its frames, and the opening's part of it; predicted runs solve their first frame, so theirs are means without it. c is the time of bench/calibrate.cpp, taken before each size.
 The picture needs python3-matplotlib.
 """
 import argparse

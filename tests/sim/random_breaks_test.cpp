@@ -107,7 +107,7 @@ double largest_tension(const Scene& scene) {
   return largest;
 }
 
-// Pieces break one after the other: those of a tube twisted apart into seventeen take 69 frames together.
+// Pieces break one after the other: those of a block with a cavity, twisted apart into seventeen, take 69 frames together.
 constexpr int kFrames = 120;
 
 struct DrawnScene {

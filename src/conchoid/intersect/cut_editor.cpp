@@ -66,7 +66,7 @@ bool CutEditor::make(const CutChange& change) {
 double CutEditor::quality(const Corners& c, const CutChange& change, const Vec3& normal, bool after) const {
   std::array<Vec3, 3> x;
   for (int k = 0; k < 3; ++k)
-    x[k] = after && c[k] == change.moved ? change.to : at(c[k]);
+    x[k] = after ? at_after(c[k], change) : at(c[k]);
   const Vec3 area = area_vector2(x[0], x[1], x[2]);
   const double longest =
       std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
@@ -121,7 +121,7 @@ bool CutEditor::is_mouth_after(NodeId a, NodeId b, const CutChange& change) cons
 bool CutEditor::lies_in_surface(const Corners& sheet_piece, const CutChange& change) const {
   std::array<Vec3, 3> x;
   for (int k = 0; k < 3; ++k)
-    x[k] = sheet_piece[k] == change.moved ? change.to : at(sheet_piece[k]);
+    x[k] = at_after(sheet_piece[k], change);
   const double longest = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
   std::array<std::vector<Corners>, 3> around;
   for (int k = 0; k < 3; ++k) {
@@ -131,8 +131,8 @@ bool CutEditor::lies_in_surface(const Corners& sheet_piece, const CutChange& cha
   const auto height = [&](const Vec3& n, int from, int to) { return std::abs(n.dot(x[to] - x[from])); };
   for (int k = 0; k < 3; ++k)
     for (const Corners& c : around[k]) {
-      const auto after = [&](NodeId n) { return n == change.moved ? change.to : at(n); };
-      const Vec3 n = area_vector2(after(c[0]), after(c[1]), after(c[2])).normalized();
+      const Vec3 n =
+          area_vector2(at_after(c[0], change), at_after(c[1], change), at_after(c[2], change)).normalized();
       if (std::max(height(n, k, (k + 1) % 3), height(n, k, (k + 2) % 3)) < kInSurface * longest) return true;
     }
   return false;

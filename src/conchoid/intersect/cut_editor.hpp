@@ -79,8 +79,8 @@ class CutEditor {
   const Vec3& at(NodeId n) const { return cut_.positions[n]; }
 
   /// Makes the change if the complex stays valid (surface closed and manifold, sheet manifold, no piece
-  /// turned over or laid into the surface, mouth a curve) and the worst piece around gets better; false, and nothing happens,
-  /// otherwise.
+  /// turned over or laid into the surface, mouth a curve) and the worst piece around gets better; false, and
+  /// nothing happens, otherwise.
   bool make(const CutChange& change);
   /// Writes the pieces back, numbered without gaps, in an order that does not tell how they came about.
   void write_back();
@@ -93,6 +93,9 @@ class CutEditor {
   IdVector<NodeId, std::vector<NodeId>> mouth_;  ///< neighbours along the mouth
 
  private:
+  const Vec3& at_after(NodeId n, const CutChange& change) const {
+    return n == change.moved ? change.to : at(n);
+  }
   bool improves_shape(const CutChange& change) const;
   bool stays_valid(const CutChange& change) const;
   bool lies_in_surface(const Corners& sheet_piece, const CutChange& change) const;

@@ -130,7 +130,7 @@ struct Fracture::State {
   std::vector<TriMesh> unfold_visible_sheets() const;
   bool is_told(double volume);
   bool separated();
-  bool parts(bool at_end, WhatBreaks what);
+  bool parts(bool at_end, const WhatBreaks& what);
   bool ligament_breaks(bool at_end);
   bool first(int number) const { return number <= before + 1; }
 
@@ -159,7 +159,7 @@ bool Fracture::State::separated() {
 
 // The more often cutting was in vain, the longer it waits for more to have cracked: what cannot be cut cleanly
 // stays so for a while, and each try costs as much as many frames. The last chance is always taken.
-bool Fracture::State::parts(bool at_end, WhatBreaks what) {
+bool Fracture::State::parts(bool at_end, const WhatBreaks& what) {
   if (!at_end && frame < cut_again) return false;
   BodyCut cut = cut_or_break(*body, settings, visible_sheets(), fine.surface(), what);
   if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);

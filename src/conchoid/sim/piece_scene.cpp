@@ -34,8 +34,7 @@ class RegionTransfer {
       : body_(body),
         fragment_(fragment),
         region_(region_of_triangles(body.surface, body.regions)),
-        same_mesh_(body.surface.corners == body.detailed.corners &&
-                   body.surface.positions == body.detailed.positions),
+        same_mesh_(body.same_mesh()),
         faces_(piece),
         elements_(body.surface) {}
 

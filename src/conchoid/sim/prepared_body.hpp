@@ -35,6 +35,10 @@ struct PreparedBody {
   std::shared_ptr<const QuadraticBody> quadratic;
 
   bool infinite() const { return surface.corners.empty(); }
+  /// Whether the fragments show the boundary elements themselves.
+  bool same_mesh() const {
+    return surface.corners == detailed.corners && surface.positions == detailed.positions;
+  }
 };
 
 /// The body that the scene names: from its file, or a model. Throws InputError with the place in the scene.

@@ -120,9 +120,7 @@ std::vector<std::string> element_warnings(const PreparedBody& body) {
 }
 
 std::optional<std::string> outline_warning(const PreparedBody& body, const Vec3& x) {
-  if (body.infinite() ||
-      (body.surface.corners == body.detailed.corners && body.surface.positions == body.detailed.positions))
-    return std::nullopt;
+  if (body.infinite() || body.same_mesh()) return std::nullopt;
   const double far = bounding_box(body.detailed).diagonal();
   const auto thickness_at = [&](const TriMesh& mesh) {
     const auto hit = ClosestPointTree(mesh).closest(x);
@@ -134,8 +132,7 @@ std::optional<std::string> outline_warning(const PreparedBody& body, const Vec3&
     return std::nullopt;
   return fmt::format(
       "the crack at {} starts where the body is {:.2g} m thick and its boundary elements are {:.2g} m: their "
-      "stress is "
-      "not the body's; use a larger body.remesh, or a [[region]] with edge = {:.2g} there",
+      "stress is not the body's; use a larger body.remesh, or a [[region]] with edge = {:.2g} there",
       place(x + body.origin, detailed), detailed, elements, detailed / edges_per_part);
 }
 
