@@ -430,8 +430,9 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
 bool Fracture::solved() const {
   return state_->solved();
 }
-bool Fracture::predicts() const {
-  return state_->predictor != nullptr;
+const std::vector<FrontOpening>* Fracture::solved_openings() const {
+  if (!solved()) return nullptr;
+  return state_->predictor ? state_->predictor->exact() : &state_->openings;
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();
