@@ -120,7 +120,6 @@ DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
   table->read("frames", spec.exclusion.frame_limit);
   table->read("many_cracks", spec.exclusion.many_cracks);
   table->read("tiny_growth", spec.exclusion.tiny_growth);
-  table->read("disturbance", spec.disturbance);
   spec.scene.run.frames = spec.exclusion.frame_limit;
   return spec;
 }

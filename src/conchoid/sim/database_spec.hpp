@@ -24,7 +24,6 @@ struct DatabaseSpec {
   std::array<double, 2> slope{0, 90};      ///< α [degree]
   std::array<double, 2> rotation{0, 360};  ///< β [degree]
   ExclusionSettings exclusion;
-  double disturbance = 0;          ///< of what moves the fronts (DisturbedOpening): σ
   std::optional<WorldSpec> world;  ///< everything is drawn at random; none: as above
 };
 

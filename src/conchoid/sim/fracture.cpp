@@ -430,9 +430,8 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
 bool Fracture::solved() const {
   return state_->solved();
 }
-const std::vector<FrontOpening>* Fracture::solved_openings() const {
-  if (!solved()) return nullptr;
-  return state_->predictor ? state_->predictor->exact() : &state_->openings;
+bool Fracture::predicts() const {
+  return state_->predictor != nullptr;
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();

@@ -114,8 +114,8 @@ class Fracture {
   const std::vector<FrontDecision>& decisions() const;
   /// Whether these come from a solution, and not from a prediction or from frames before.
   bool solved() const;
-  /// The openings of this frame as they were solved in a run that solves every frame; else null.
-  const std::vector<FrontOpening>* solved_openings() const;
+  /// Whether a source other than the boundary elements gives the openings of some frames.
+  bool predicts() const;
   /// The body as it was last solved: displacement, traction, stress.
   const CrackedBody& solution() const;
   /// What fronts were like in the frames before.

@@ -8,7 +8,6 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/core/stopwatch.hpp"
 #include "conchoid/sim/breakup.hpp"
-#include "conchoid/sim/disturbed_opening.hpp"
 #include "conchoid/sim/recorders.hpp"
 
 namespace conchoid {
@@ -57,22 +56,12 @@ void exclude(RunRecord& record, const std::exception& error) {
   record.excluded = true;
 }
 
-// Who moves the fronts of a run whose samples are wanted.
-OpeningSourceFor moved_by(const DatabaseSpec& spec, std::uint64_t seed) {
-  if (spec.disturbance == 0) return {};
-  return [size = spec.disturbance, seed](const PreparedBody& body) -> MakeOpeningSource {
-    return [size, seed, &body](BemOpening& bem) {
-      return std::make_unique<DisturbedOpening>(bem, body, size, seed);
-    };
-  };
-}
-
 RunPart computed(const DatabaseSpec& spec, PreparedRun run) {
   const Stopwatch clock;
   RunPart out{std::move(run.record), {}};
   RunRecord& record = out.record;
   try {
-    Breakup breakup(run.scene, run.body, {BreakupSettings::After::chips, moved_by(spec, record.seed)});
+    Breakup breakup(run.scene, run.body, {BreakupSettings::After::chips});
     GrowthRecorder growth;
     SampleRecorder samples(SampleRecorder::Fields::all);
     breakup.add_observer(growth);

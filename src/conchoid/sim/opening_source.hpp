@@ -40,8 +40,6 @@ class OpeningSource {
   virtual bool solves(int frame) const = 0;
   /// Whether frames after the first may be solved.
   virtual bool solves_later_frames() const { return true; }
-  /// What was solved, where open() has given something else on purpose; null where it has given what it found.
-  virtual const std::vector<FrontOpening>* exact() const { return nullptr; }
   /// How far the crack surface so far is expected to lie from the solved one, over the body's diagonal; nothing
   /// where nobody estimates it.
   virtual std::optional<double> expected_error() const { return {}; }

@@ -58,8 +58,7 @@ FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
 }
 
 void SampleRecorder::on_opening(const Fracture& fracture) {
-  const std::vector<FrontOpening>* exact = fracture.solved_openings();
-  if (!exact) return;
+  if (!fracture.solved() || fracture.predicts()) return;
   const CrackState& crack = fracture.crack();
   FrontSurroundings* around = surroundings(fracture);
   if (around) around->measure(crack, fracture.load(), fracture.loads());
@@ -68,7 +67,7 @@ void SampleRecorder::on_opening(const Fracture& fracture) {
     const auto chosen = nearest.find(crack.points[i].correlation);
     if (chosen == nearest.end() || chosen->second != i) continue;
     auto sample = fracture.history().sample(crack, crack.points[i]);
-    const FrontOpening& now = (*exact)[i];
+    const FrontOpening& now = fracture.openings()[i];
     if (!sample || now.opening.isZero(0)) continue;
     const FrontHistory::Entry* before = fracture.history().find(crack.points[i].correlation);
     if (before->seen != crack.sheet.frame - 1) continue;

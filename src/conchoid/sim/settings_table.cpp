@@ -56,7 +56,7 @@ const std::vector<SettingTable>& setting_tables() {
       {"world", false, false,
        "In place of a scene: body, supports, material, cracks and load of every run are drawn at random, "
        "from "
-       "database.seed. Of [database] it takes runs, seed, frames, many_cracks, tiny_growth and disturbance."},
+       "database.seed. Of [database] it takes runs, seed, frames, many_cracks and tiny_growth."},
   };
   return tables;
 }
@@ -487,11 +487,6 @@ const std::vector<Setting>& settings() {
        "from so many new cracks on, all of them tiny, a run is not learned from", between(1, 10000)},
       {"database", "tiny_growth", number, "crack edges", "2.0",
        "a crack is tiny if its front has travelled less", between(0, 1e6)},
-      {"database", "disturbance", number, "", "0.0",
-       "above 0, fronts are moved by K with errors of about this size in direction, as predicted ones would "
-       "be, and "
-       "solved K are learned from: such a database teaches the way back from a wrong turn",
-       between(0, 0.5)},
 
       {"world",
        "classes",
