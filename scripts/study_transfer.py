@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole runs of bodies of classes that a regressor has seen in training, and of classes that it has not; writes the tables of docs/prediction.md.
 
-  scripts/study_transfer.py CONCHOID WORK [--runs 10] [--only NAMES] [--armadillo tests/data/armadillo.ply]
+  scripts/study_transfer.py CONCHOID WORK [--runs 30] [--only NAMES] [--studies NAMES] [--armadillo tests/data/armadillo.ply]
 
 WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) and keeps regressors and results. For every class: a specification with
 another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
@@ -147,8 +147,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("--runs", type=int, default=10)
+    parser.add_argument("--runs", type=int, default=30)
     parser.add_argument("--only", default="")
+    parser.add_argument("--studies", default="whole-runs,load,noise")
     parser.add_argument("--armadillo", default=str(ROOT / "tests/data/armadillo.ply"))
     a = parser.parse_args()
     names = a.only.split(",") if a.only else ["cube", "cylinder model", "bar", *WORLD, "armadillo"]
@@ -157,11 +158,16 @@ def main():
     files = lambda name: files_for(a.program, a.work, name)
     closed = ["steady", "kept", "stress"]
     learned = [f"{where} {kind}" for where in ("all", "left out") for kind in MODELS] + ["own"]
-    print("Whole runs\n")
-    table(run("whole-runs", a.runs, files), closed + learned)
+    studies = a.studies.split(",")
     few = (a.runs + 1) // 2
-    print(f"Load x {LOAD}\n")
-    table(run("load", few, files, "--load", LOAD), closed + learned)
+    if "whole-runs" in studies:
+        print("Whole runs\n")
+        table(run("whole-runs", a.runs, files), closed + learned)
+    if "load" in studies:
+        print(f"Load x {LOAD}\n")
+        table(run("load", few, files, "--load", LOAD), closed + learned)
+    if "noise" not in studies:
+        return
     print("Small changes of what is solved, and hybrid runs with boosted trees that the class is left out of\n")
     left_out = lambda name: [f for f in files(name) if f.suffix == ".boosted"][-1:]
     changes = ["load + 0.5 %", "load turned 0.5 deg", "edge + 10 %", "elements + 10 %"]
