@@ -12,6 +12,7 @@
 #include "conchoid/core/log.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/shipped.hpp"
+#include "conchoid/sim/make_runs.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/settings.hpp"
 
@@ -22,6 +23,7 @@ struct RunCommand {
   std::string scene, method = "bem", database, out, cache, solver = body_solver_names().front();
   std::vector<std::string> formats;  ///< empty: the scene's
   int frames = 0;                    ///< 0: the scene's
+  int run = -1;                      ///< of a database's specification; -1: a scene
   bool resume = false;
   double tolerance = kStandardTolerance;
   bool has_tolerance = false;
@@ -51,6 +53,26 @@ std::string report_text(const RunDocument& d) {
                         d.fragments[i].volume, d.fragments[i].mass, d.fragments[i].fracture_area,
                         d.fragments[i].watertight ? "watertight" : "not watertight");
   return text + "\nhash " + d.hash;
+}
+
+/// What is to be run: a scene, or one run of a specification, whose text then tells which.
+PreparedRun run_of(const RunCommand& command) {
+  const auto set = [&](Scene& scene) {
+    scene.run.solver = command.solver;
+    scene.run.cache = open_cache(command.cache);
+  };
+  if (command.run < 0) {
+    PreparedRun out{read_scene(command.scene), nullptr, {}};
+    set(out.scene);
+    return out;
+  }
+  DatabaseSpec spec = read_database_spec(command.scene);
+  set(spec.scene);
+  PreparedRun out = prepare_run(spec, command.run);
+  set(out.scene);
+  out.scene.file = command.scene;
+  out.scene.text = fmt::format("{}\n# run {}\n", spec.scene.text, command.run);
+  return out;
 }
 
 /// The finished run of the same scene that the folder holds, if there is one. A regressor is not recorded
@@ -91,14 +113,13 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (!database.empty()) regressor = load_regressor(database_file(database));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor, options.tolerance);
-  Scene scene = read_scene(command.scene);
-  scene.run.solver = command.solver;
-  scene.run.cache = open_cache(command.cache);
-  std::optional<RunDocument> document = finished_run(command, scene, options);
+  const PreparedRun run = run_of(command);
+  std::optional<RunDocument> document = finished_run(command, run.scene, options);
   if (document)
     message(command.out + ": finished already; reported again");
   else
-    document = run_scene(scene, options).document;
+    document =
+        (run.body ? run_prepared(run.scene, run.body, options) : run_scene(run.scene, options)).document;
   print(common.json ? run_json(*document, RunJson::report) : report_text(*document));
   if (document->stop == StopReason::interrupted)
     throw Interrupted("stopped on request; what was computed so far has been kept");
@@ -119,6 +140,10 @@ void add_run(CLI::App& program, Invocation& invocation) {
     if (!method.regressor.empty()) trained += (trained.empty() ? "" : " or ") + method.name;
   }
   command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command
+      ->add_option("--run", options->run,
+                   "SCENE is a specification as for database generate: the run of that number, from 0 on")
+      ->check(CLI::Range(0, 9999999));
   command->add_option("--method", options->method, "where the crack opening comes from: " + help)
       ->check(CLI::IsMember(names))
       ->capture_default_str();

@@ -55,6 +55,36 @@ TEST(Usage, FoldersMayBeNamedAsCommandsAre) {
   EXPECT_EQ(two.status, 2) << two.out;
 }
 
+TEST(Run, OneOfASpecificationIsItsSceneUnderTheDrawnLoad) {
+  const TemporaryFolder folder;
+  const std::string body =
+      "[body]\nmodel = \"cube\"\n" + kMaterial + "[resolution]\ncrack = 0.25\nsurface = 0.1\n";
+  folder.write("spec.toml", body +
+                                "[database]\nregions = [\"z+\", \"z-\"]\nmagnitude = [9e7, 9e7]\n"
+                                "slope = [0, 0]\n");
+  folder.write("scene.toml", body +
+                                 "[[boundary]]\nregion = \"z+\"\ntraction = [0, 0, 9e7]\n"
+                                 "[[boundary]]\nregion = \"z-\"\ntraction = [0, 0, -9e7]\n"
+                                 "[run]\ninertia_relief = true\n");
+  const json drawn = json_of(folder, {"run", "spec.toml", "--run", "3", "--out", "drawn"});
+  EXPECT_EQ(drawn["hash"], json_of(folder, {"run", "scene.toml"})["hash"]);
+  const json again = json_of(folder, {"run", "spec.toml", "--run", "3", "--out", "drawn", "--resume"});
+  EXPECT_EQ(drawn["hash"], again["hash"]);
+  const Outcome other =
+      run_program({"run", "spec.toml", "--run", "4", "--out", "drawn", "--resume"}, folder.path());
+  EXPECT_EQ(other.status, 2) << "it is another run";
+}
+
+TEST(Run, OneOfAWorldIsTheSameEveryTime) {
+  const TemporaryFolder folder;
+  folder.write("world.toml",
+               "[world]\nelements = 60\nclasses = [\"box\", \"rod\"]\n[database]\nframes = 2\n");
+  const json first = json_of(folder, {"run", "world.toml", "--run", "1"});
+  EXPECT_EQ(first["frames"], 2);
+  EXPECT_EQ(first["hash"], json_of(folder, {"run", "world.toml", "--run", "1"})["hash"]);
+  EXPECT_NE(first["hash"], json_of(folder, {"run", "world.toml", "--run", "4"})["hash"]);
+}
+
 TEST(Help, EverySubCommandExplainsItself) {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> commands = {{"run"},

@@ -130,6 +130,11 @@ PreparedRun prepare_run(const DatabaseSpec& spec, const std::shared_ptr<const Pr
   return WorldRuns(spec, run / spec.world->runs_per_body).prepared(run);
 }
 
+PreparedRun prepare_run(const DatabaseSpec& spec, std::int32_t run) {
+  return prepare_run(spec, spec.world ? nullptr : std::make_shared<const PreparedBody>(prepare(spec.scene)),
+                     run);
+}
+
 void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
                const std::function<void(RunPart)>& keep) {
   if (runs.empty()) return;

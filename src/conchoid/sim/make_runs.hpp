@@ -28,4 +28,7 @@ struct PreparedRun {
 PreparedRun prepare_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
                         std::int32_t run);
 
+/// One run alone.
+PreparedRun prepare_run(const DatabaseSpec& spec, std::int32_t run);
+
 }  // namespace conchoid

@@ -169,23 +169,24 @@ BreakupSettings breakup_settings(const Scene& scene, const RunOptions& options, 
   return settings;
 }
 
-}  // namespace
-
-RunResult run_scene(const Scene& scene, const RunOptions& options) {
-  return run_body(scene, scene_body(scene), options);
+// What the options ask for, checked before anything is computed.
+struct Choice {
+  const OpeningMethod& method;
+  FragmentFormats formats;
+};
+Choice checked(const Scene& scene, const RunOptions& options) {
+  return {checked_method(options.method, options.regressor, options.tolerance),
+          formats_from_names(options.formats.value_or(scene.output.formats),
+                             options.formats ? "--format" : scene.output.where)};
 }
 
-RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options) {
-  const OpeningMethod& method = checked_method(options.method, options.regressor, options.tolerance);
-  const FragmentFormats formats = formats_from_names(options.formats.value_or(scene.output.formats),
-                                                     options.formats ? "--format" : scene.output.where);
-  const Stopwatch clock;
-  const std::vector<std::string> said = of_scene.warnings;
-  const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
+RunResult run_it(const Scene& scene, const std::shared_ptr<const PreparedBody>& body,
+                 const RunOptions& options, const Choice& choice, const std::vector<std::string>& said,
+                 const Stopwatch& clock) {
   RunResult result;
   RunDocument& doc = result.document = describe(scene, *body, options);
   doc.warnings = said;
-  Breakup breakup(scene, body, breakup_settings(scene, options, method));
+  Breakup breakup(scene, body, breakup_settings(scene, options, choice.method));
   add_warnings(resolution_warnings(*body, breakup.fracture().crack(), scene.run.max_cracks > 0), doc);
   Places places = open_places(breakup.fracture(), scene, options);
   std::optional<FrameWriter> frames;
@@ -224,9 +225,28 @@ RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options)
   doc.total_seconds = clock.seconds();
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (places.folder) write_results(result, formats, body->surface_edge, *places.folder);
+  if (places.folder) write_results(result, choice.formats, body->surface_edge, *places.folder);
   if (places.checkpoint && !may_go_on(doc.stop)) places.checkpoint->remove();
   return result;
+}
+
+}  // namespace
+
+RunResult run_scene(const Scene& scene, const RunOptions& options) {
+  return run_body(scene, scene_body(scene), options);
+}
+
+RunResult run_body(const Scene& scene, Body of_scene, const RunOptions& options) {
+  const Choice choice = checked(scene, options);
+  const Stopwatch clock;
+  const std::vector<std::string> said = of_scene.warnings;
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene, std::move(of_scene)));
+  return run_it(scene, body, options, choice, said, clock);
+}
+
+RunResult run_prepared(const Scene& scene, const std::shared_ptr<const PreparedBody>& body,
+                       const RunOptions& options) {
+  return run_it(scene, body, options, checked(scene, options), {}, Stopwatch());
 }
 
 }  // namespace conchoid

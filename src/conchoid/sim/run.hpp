@@ -9,6 +9,7 @@
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/sample.hpp"
 #include "conchoid/sim/body.hpp"
+#include "conchoid/sim/prepared_body.hpp"
 #include "conchoid/sim/scene.hpp"
 
 namespace conchoid {
@@ -50,5 +51,15 @@ RunResult run_scene(const Scene& scene, const RunOptions& options);
 /// The same for a body in memory, in place of the one the scene names: material, conditions, resolution and
 /// further cracks are the scene's.
 RunResult run_body(const Scene& scene, Body body, const RunOptions& options);
+
+/// The same for a body that has been made ready for the scene (prepare()), as those of databases are
+/// (sim/make_runs.hpp).
+RunResult run_prepared(const Scene& scene, const std::shared_ptr<const PreparedBody>& body,
+                       const RunOptions& options);
+
+/// The same for a body that has been made ready for the scene (prepare()), as those of databases are
+/// (sim/make_runs.hpp).
+RunResult run_prepared(const Scene& scene, const std::shared_ptr<const PreparedBody>& body,
+                       const RunOptions& options);
 
 }  // namespace conchoid
