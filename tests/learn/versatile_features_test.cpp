@@ -33,6 +33,13 @@ Sample random_sample(int seed) {
   s.wall_distance_after = 0.1;
   s.traction_after = 3e6 * (Vec3(1, 0, 0) + random_vector(random));
   s.lateral_after = 1e6 * random_vector(random);
+  s.taken_over = 2e6 * (Vec3(1, 0, 0) + random_vector(random));
+  s.taken_over_after = 2e6 * (Vec3(1, 0, 0) + random_vector(random));
+  s.crack_force = 1e5 * (Vec3(1, 0, 0) + random_vector(random));
+  s.crack_moment = 1e4 * random_vector(random);
+  s.arms = 3e6;
+  s.arms_after = 4e6;
+  s.beside = {0.4, 0.2, 0.5, 0.7, 0.3, 0.35, 0.9, 0.8};
   s.turn = 0.2 * random_vector(random);
   return s;
 }
@@ -46,8 +53,10 @@ std::vector<double> row_of(const Sample& s) {
 /// The crack normal reversed: e1 and e3 change sign, and which face is which.
 Sample reversed(Sample s) {
   for (Vec3* K : {&s.K, &s.driving, &s.driving_nearby, &s.driving_front, &s.driving_after, &s.traction,
-                  &s.traction_after, &s.opening})
+                  &s.traction_after, &s.taken_over, &s.taken_over_after, &s.crack_force, &s.crack_moment, &s.opening})
     (*K)[1] *= -1;
+  for (const std::size_t k : {0, 2, 4, 6})
+    std::swap(s.beside[k], s.beside[k + 1]);
   s.driving_slope[0] *= -1;
   s.driving_slope[2] *= -1;
   s.lateral[2] *= -1;
@@ -60,8 +69,11 @@ Sample reversed(Sample s) {
 /// The body mirrored across the plane of e1 and e2: what points along e3 changes sign.
 Sample mirrored(Sample s) {
   for (Vec3* K : {&s.K, &s.driving, &s.driving_nearby, &s.driving_front, &s.driving_after, &s.traction,
-                  &s.traction_after, &s.opening})
+                  &s.traction_after, &s.taken_over, &s.taken_over_after, &s.crack_force, &s.opening})
     (*K)[2] *= -1;
+  s.crack_moment[0] *= -1;
+  s.crack_moment[1] *= -1;
+  std::swap(s.beside[6], s.beside[7]);
   s.driving_slope[0] *= -1;
   s.driving_slope[1] *= -1;
   s.lateral[2] *= -1;
@@ -79,13 +91,20 @@ TEST(VersatileFeatures, SizeUnitLoadAndToughnessDoNotCount) {
        {&b.resolution, &b.distance_before, &b.distance_after, &b.travelled, &b.surface_distance,
         &b.wall_distance, &b.crack_radius, &b.surface_distance_after, &b.wall_distance_after})
     *length *= s;
+  for (double& length : b.beside)
+    length *= s;
   for (double* curvature : {&b.front_curvature, &b.front_curvature_after})
     *curvature /= s;
   for (Vec3* K : {&b.K, &b.driving, &b.driving_nearby, &b.driving_front, &b.driving_after})
     *K *= load * std::sqrt(s);
   b.driving_slope *= load / std::sqrt(s);
-  for (Vec3* stress : {&b.traction, &b.traction_after, &b.lateral, &b.lateral_after})
+  for (Vec3* stress : {&b.traction, &b.traction_after, &b.lateral, &b.lateral_after, &b.taken_over,
+                       &b.taken_over_after})
     *stress *= load;
+  b.crack_force *= load * s * s;
+  b.crack_moment *= load * s * s * s;
+  for (double* K : {&b.arms, &b.arms_after})
+    *K *= load * std::sqrt(s);
   b.youngs_modulus *= k;
   b.toughness *= 0.01;
   const auto row_a = row_of(a), row_b = row_of(b);
@@ -166,8 +185,12 @@ TEST(VersatileFeatures, AForestsAnswersHaveTheSymmetriesExactly) {
 TEST(VersatileFeatures, PureModeOneGoesStraightOn) {
   const RegressionForest forest = RegressionForest::train(random_samples(120), {5, 8, kSet, 1, 256});
   Sample s = random_sample(300);
-  for (Vec3* K : {&s.driving, &s.driving_nearby, &s.driving_front, &s.traction, &s.traction_after})
+  for (Vec3* K : {&s.driving, &s.driving_nearby, &s.driving_front, &s.traction, &s.traction_after,
+                  &s.taken_over, &s.taken_over_after, &s.crack_force})
     *K = {(*K)[0], 0, 0};
+  s.crack_moment[0] = 0;
+  for (const std::size_t k : {0, 2, 4})
+    s.beside[k] = s.beside[k + 1];
   s.driving_slope = s.turn = Vec3::Zero();
   s.lateral[2] = s.lateral_after[2] = 0;
   SampleSet one;

@@ -22,9 +22,7 @@ struct Measured {
   std::vector<Sample> samples;  // of the points, as if the crack had stood still for a frame
 };
 
-/// The cube pulled along z with a disc across its middle: everything about it is known.
-Measured disc_in_cube() {
-  const Scene scene = test::scene_from_text(test::cracked_cube_text("", 0.1, 0.02));
+Measured measured(const Scene& scene) {
   const auto body = std::make_shared<const PreparedBody>(prepare(scene));
   Fracture fracture(body, load_of(scene, *body), scene.run);
   Measured out;
@@ -53,6 +51,11 @@ Measured disc_in_cube() {
   return out;
 }
 
+/// The cube pulled along z with a disc across its middle: everything about it is known.
+Measured disc_in_cube() {
+  return measured(test::scene_from_text(test::cracked_cube_text("", 0.1, 0.02)));
+}
+
 TEST(FrontSurroundings, ADiscInAPulledCubeIsDescribedExactly) {
   const Measured m = disc_in_cube();
   ASSERT_GT(m.samples.size(), 10u);
@@ -77,6 +80,46 @@ TEST(FrontSurroundings, ADiscInAPulledCubeIsDescribedExactly) {
   const double share = m.samples[0].ligament_share;
   EXPECT_GT(share, 0.6);
   EXPECT_LT(share, 0.9);
+}
+
+// A bar of width 1 with a crack of depth a in its side, pulled: σ/(1 − a) (1 + 3 a/(1 − a)) at the front (Navier).
+TEST(FrontSurroundings, TheLigamentOfAnEdgeCrackTakesOverTheTextbooksStress) {
+  constexpr double a = 0.3;
+  const Measured m = measured(test::scene_from_text(
+      "[body]\nmodel = 'edge-crack-cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+      test::boundary_text("z+", "traction", {0, 0, kStress}) +
+      test::boundary_text("z-", "traction", {0, 0, -kStress}) + "[run]\nmax_cracks = 0\n"));
+  ASSERT_GT(m.samples.size(), 5u);
+  const double net = kStress / (1 - a) * (1 + 3 * a / (1 - a));
+  for (std::size_t i = 0; i < m.samples.size(); ++i) {
+    const Sample& s = m.samples[i];
+    EXPECT_NEAR(s.traction_after[0] + s.taken_over_after[0], net, 0.02 * net);
+    EXPECT_NEAR(s.taken_over_after.tail<2>().norm(), 0, 0.02 * net);
+    EXPECT_NEAR((s.crack_force - a * kStress * Vec3::UnitX()).norm(), 0, 0.02 * a * kStress);
+    EXPECT_NEAR(std::abs(s.crack_moment[2]), a * a / 2 * kStress, 0.03 * a * a / 2 * kStress);
+    const double arms = std::sqrt(12.0) * a * a / 2 * kStress / std::pow(0.5, 1.5);
+    EXPECT_NEAR(s.arms_after, arms, 0.03 * arms);
+    const double side = m.crack.sheet.mesh.positions[m.crack.points[i].node].dot(m.crack.points[i].frame.e3);
+    EXPECT_NEAR(s.beside[0], 0.5, 1e-9) << "above";
+    EXPECT_NEAR(s.beside[1], 0.5, 1e-9) << "below";
+    EXPECT_NEAR(s.beside[2], 0.5 * std::numbers::sqrt2, 1e-9) << "above and ahead";
+    EXPECT_NEAR(s.beside[4], a * std::numbers::sqrt2, 1e-9) << "above and behind";
+    EXPECT_NEAR(s.beside[6], 0.5 - side, 1e-9);
+    EXPECT_NEAR(s.beside[7], 0.5 + side, 1e-9);
+  }
+}
+
+TEST(FrontSurroundings, AnInfiniteBodyTakesNothingOver) {
+  const Measured m = measured(test::scene_from_text(
+      "[body]\nmodel = 'infinite'\n" + test::material_text() +
+      "[[crack]]\nkind = 'disc'\ncenter = [0, 0, 0]\nnormal = [0, 0, 1]\nradius = 0.5\ntriangles = 100\n" +
+      test::remote_stress_text(kStress * Vec3(0, 0, 1).asDiagonal())));
+  ASSERT_GT(m.samples.size(), 5u);
+  for (const Sample& s : m.samples) {
+    EXPECT_EQ(s.taken_over_after, Vec3::Zero());
+    EXPECT_EQ(s.arms_after, 0);
+    EXPECT_GT(s.crack_force[0], 0.7 * kStress * std::numbers::pi / 4) << "of a polygon in the circle";
+  }
 }
 
 TEST(FrontSurroundings, RecordedSamplesPairSuccessiveFramesOncePerCorrelationNode) {

@@ -60,6 +60,28 @@ constexpr std::array<SampleField, SampleSet::field_count> field_table = {{
     {"turn_21", "1"},
     {"turn_31", "1"},
     {"turn_23", "1"},
+    {"taken_over_I", "Pa"},
+    {"taken_over_II", "Pa"},
+    {"taken_over_III", "Pa"},
+    {"taken_over_after_I", "Pa"},
+    {"taken_over_after_II", "Pa"},
+    {"taken_over_after_III", "Pa"},
+    {"crack_force_I", "N"},
+    {"crack_force_II", "N"},
+    {"crack_force_III", "N"},
+    {"crack_moment_I", "N*m"},
+    {"crack_moment_II", "N*m"},
+    {"crack_moment_III", "N*m"},
+    {"arms", "Pa*sqrt(m)"},
+    {"arms_after", "Pa*sqrt(m)"},
+    {"up_distance_after", "m"},
+    {"down_distance_after", "m"},
+    {"ahead_up_distance_after", "m"},
+    {"ahead_down_distance_after", "m"},
+    {"behind_up_distance_after", "m"},
+    {"behind_down_distance_after", "m"},
+    {"left_distance_after", "m"},
+    {"right_distance_after", "m"},
     {"driving_after_I", "Pa*sqrt(m)"},
     {"driving_after_II", "Pa*sqrt(m)"},
     {"driving_after_III", "Pa*sqrt(m)"},
@@ -90,6 +112,14 @@ void visit_values(AnySample& s, const Visit& visit) {
   each(s.traction_after);
   each(s.lateral_after);
   each(s.turn);
+  each(s.taken_over);
+  each(s.taken_over_after);
+  each(s.crack_force);
+  each(s.crack_moment);
+  visit(s.arms);
+  visit(s.arms_after);
+  for (auto& distance : s.beside)
+    visit(distance);
   each(s.driving_after);
 }
 

@@ -11,7 +11,7 @@
 namespace conchoid {
 namespace {
 
-constexpr std::size_t max_features = 64;
+constexpr std::size_t max_features = 128;
 constexpr std::size_t max_nodes = std::size_t{1} << 26;
 constexpr float endless = std::numeric_limits<float>::infinity();
 
@@ -31,7 +31,7 @@ void check_arrays(const RegressionTree& tree) {
 
 TreeEnsemble::TreeEnsemble(const std::vector<RegressionTree>& trees, int features) : features_(features) {
   if (features < 1 || features > static_cast<int>(max_features))
-    refuse("the number of features must lie between 1 and 64");
+    refuse("the number of features must lie between 1 and 128");
   for (const RegressionTree& tree : trees) {
     check_arrays(tree);
     if (nodes_.size() + tree.size() > max_nodes) refuse("the forest has too many nodes");

@@ -67,6 +67,32 @@ constexpr std::array features_table = {Feature{"w_I", even},
                                        Feature{"S/(S+stress)", even},
                                        Feature{"pull_12", two},
                                        Feature{"pull_13", three},
+                                       Feature{"net_I", even},
+                                       Feature{"net_II", two},
+                                       Feature{"net_III", three},
+                                       Feature{"taken_I", even},
+                                       Feature{"taken_II", two},
+                                       Feature{"taken_III", three},
+                                       Feature{"net_growth", even},
+                                       Feature{"net/stress", even},
+                                       Feature{"net_12", two},
+                                       Feature{"net_13", three},
+                                       Feature{"force_I", even},
+                                       Feature{"force_II", two},
+                                       Feature{"force_III", three},
+                                       Feature{"lever_I", three},
+                                       Feature{"lever_II", both},
+                                       Feature{"lever_III", even},
+                                       Feature{"arms_growth", even},
+                                       Feature{"S/(S+arms)", even},
+                                       Feature{"across_distance", even},
+                                       Feature{"across_lopsided", two},
+                                       Feature{"ahead_across_distance", even},
+                                       Feature{"ahead_across_lopsided", two},
+                                       Feature{"behind_across_distance", even},
+                                       Feature{"behind_across_lopsided", two},
+                                       Feature{"along_distance", even},
+                                       Feature{"along_lopsided", both},
                                        Feature{"poisson_ratio", even}};
 
 Vec3 scaled(const Sample& s, const Vec3& K) {
@@ -165,6 +191,25 @@ void versatile_features(const Sample& s, std::span<double> row) {
   put(S + load > 0 ? S / (S + load) : 0);
   put(tension_angle(s.traction_after[0], s.lateral_after[0], s.traction_after[1]));
   put(tension_angle(s.traction_after[0], s.lateral_after[1], s.traction_after[2]));
+  const Vec3 net_before = s.traction + s.taken_over, net = s.traction_after + s.taken_over_after;
+  put_all(over(net, net.norm()));
+  put_all(over(s.taken_over_after, net.norm() + s.taken_over_after.norm()));
+  const double grown = net.norm(), was = net_before.norm();
+  put(grown > 0 && was > 0 ? std::clamp(std::log(grown / was), -3.0, 3.0) : 0);
+  put(grown + after > 0 ? grown / (grown + after) : 0);
+  put(tension_angle(net[0], s.lateral_after[0], net[1]));
+  put(tension_angle(net[0], s.lateral_after[1], net[2]));
+  const double force = s.crack_force.norm(), lever = force * s.crack_radius;
+  put_all(over(s.crack_force, force));
+  put_all(over(s.crack_moment, lever + s.crack_moment.norm()));
+  put(s.arms > 0 && s.arms_after > 0 ? std::clamp(std::log(s.arms_after / s.arms), -3.0, 3.0) : 0);
+  put(S + s.arms > 0 ? S / (S + s.arms) : 0);
+  for (std::size_t k = 0; k < kSides; k += 2) {
+    const double one = closeness(r, s.beside[k]), other = closeness(r, s.beside[k + 1]);
+    put((one + other) / 2);
+    const double near = std::min(s.beside[k], s.beside[k + 1]);
+    put(std::isfinite(near) && near > 0 ? near / s.beside[k + 1] - near / s.beside[k] : 0);
+  }
   put(s.poisson_ratio);
 }
 

@@ -243,6 +243,13 @@ bool hold_crumbs(CrackState& state, double volume) {
   return true;
 }
 
+std::vector<Vec3> point_positions(const CrackState& state) {
+  std::vector<Vec3> positions;
+  for (const FrontPoint& point : state.points)
+    positions.push_back(state.sheet.mesh.positions[point.node]);
+  return positions;
+}
+
 std::vector<FrontPoint> ligament_points(const CrackState& state) {
   std::set<std::size_t> parents;  // sheet triangles with a piece of front that has no node of the sheet
   for (const Front& front : state.fronts) {

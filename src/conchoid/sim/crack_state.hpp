@@ -46,6 +46,9 @@ void update_crack(CrackState& state, const TriMesh& surface, double crack_edge,
 /// @param volume  [m³]
 bool hold_crumbs(CrackState& state, double volume);
 
+/// Of all points.
+std::vector<Vec3> point_positions(const CrackState& state);
+
 /// Ends of front edges whose nodes lie outside of the body on both sides but which still cross it: the last
 /// ligaments at corners, narrower than a triangle. They have no node inside to read SIFs at, and run through.
 std::vector<FrontPoint> ligament_points(const CrackState& state);

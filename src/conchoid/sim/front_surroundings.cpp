@@ -9,6 +9,7 @@
 #include "conchoid/mesh/ray_exit.hpp"
 #include "conchoid/sim/crack_sizes.hpp"
 #include "conchoid/sim/front_gaps.hpp"
+#include "conchoid/sim/net_section.hpp"
 
 namespace conchoid {
 namespace {
@@ -40,13 +41,21 @@ double curvature(const FrontFrame& frame, const Vec3& x, const Vec3& before, con
   return count > 0 ? sum / count : 0;
 }
 
+// Along ±e1, the diagonals ahead and behind, ±e3: pairs that reversing the normal or mirroring exchange.
+template <class Exit>
+std::array<double, kSides> distances_beside(const FrontFrame& f, const Exit& exit) {
+  const Vec3 up = f.e1 / std::numbers::sqrt2, on = f.e2 / std::numbers::sqrt2;
+  return {exit(f.e1),    exit(-f.e1),    exit(on + up), exit(on - up),
+          exit(up - on), exit(-up - on), exit(f.e3),    exit(-f.e3)};
+}
+
 }  // namespace
 
 FrontSurroundings::FrontSurroundings(const PreparedBody& body)
     : body_(body), walls_(body.surface), uncracked_(body) {}
 
 void FrontSurroundings::measure(const CrackState& crack, const LoadCase& load, std::size_t version) {
-  const std::vector<Mat3> stress = uncracked_.at_points(crack, load, version);
+  const std::vector<Mat3> stress = stress_at_points(crack, load, version);
   points_.assign(crack.points.size(), {});
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& p = points_[i];
@@ -55,11 +64,35 @@ void FrontSurroundings::measure(const CrackState& crack, const LoadCase& load, s
     p.stress = axes.transpose() * stress[i] * axes;
     const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
     p.ahead = exit_distance(body_.surface, walls_, x, p.frame.e2);
+    p.beside = distances_beside(p.frame, [&](const Vec3& along) {
+      return exit_distance(body_.surface, walls_, x, along);
+    });
     p.wall = std::sqrt(uncracked_.surface().closest(x).squared_distance);
     p.seen = crack.sheet.frame;
   }
   measure_front(crack);
   measure_crack(crack);
+}
+
+// At nodes that are new in the sheet; the others keep theirs.
+std::vector<Mat3> FrontSurroundings::stress_at_points(const CrackState& crack, const LoadCase& load,
+                                                      std::size_t version) {
+  if (version_ != version) stress_.clear();
+  version_ = version;
+  std::vector<NodeId> nodes;
+  std::vector<Vec3> at;
+  for (std::size_t n = 0; n < crack.node_in_cut.size(); ++n)
+    if (crack.node_in_cut[NodeId(n)].valid() && !stress_.contains(NodeId(n))) {
+      nodes.emplace_back(n);
+      at.push_back(crack.sheet.mesh.positions[NodeId(n)]);
+    }
+  const std::vector<Mat3> found = uncracked_.at_points(std::move(at), load, version);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    stress_[nodes[k]] = found[k];
+  std::vector<Mat3> out;
+  for (const FrontPoint& point : crack.points)
+    out.push_back(stress_.at(point.node));
+  return out;
 }
 
 void FrontSurroundings::measure_front(const CrackState& crack) {
@@ -102,6 +135,25 @@ void FrontSurroundings::measure_crack(const CrackState& crack) {
     const double left = of_crack[static_cast<std::size_t>(sizes[i].crack)];
     points_[i].ligament_share = std::isfinite(left) ? left / (left + sizes[i].area) : 1;
   }
+  measure_sections(crack, sizes);
+}
+
+void FrontSurroundings::measure_sections(const CrackState& crack, const std::vector<CrackSize>& sizes) {
+  std::vector<double> ahead;
+  for (const Point& p : points_)
+    ahead.push_back(p.ahead);
+  const std::vector<NetSection> sections = net_sections(crack, stress_, ahead);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (sizes[i].crack < 0) continue;
+    Point& p = points_[i];
+    const NetSection& section = sections[static_cast<std::size_t>(sizes[i].crack)];
+    const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
+    const Mat3 to_frame = axes_of(p.frame).transpose();
+    p.taken = to_frame * section.taken_over(x);
+    p.force = to_frame * section.force;
+    p.moment = to_frame * section.moment_about(x);
+    p.arms = arm_intensity(p.moment[2], section.front, p.beside[0], p.beside[1]);
+  }
 }
 
 bool FrontSurroundings::complete(const CrackState& crack, std::size_t i, Sample& s) const {
@@ -124,6 +176,13 @@ bool FrontSurroundings::complete(const CrackState& crack, std::size_t i, Sample&
   s.wall_distance_after = now.wall;
   s.traction_after = traction(now.stress);
   s.lateral_after = lateral(now.stress);
+  s.taken_over = old.taken;
+  s.taken_over_after = now.taken;
+  s.crack_force = now.force;
+  s.crack_moment = now.moment;
+  s.arms = old.arms;
+  s.arms_after = now.arms;
+  s.beside = now.beside;
   s.turn = {now.frame.e2.dot(old.frame.e1), now.frame.e3.dot(old.frame.e1), now.frame.e2.dot(old.frame.e3)};
   return old.seen == crack.sheet.frame - 1;
 }

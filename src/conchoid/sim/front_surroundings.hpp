@@ -1,10 +1,12 @@
 #pragma once
 
 #include <unordered_map>
+#include <array>
 #include <vector>
 
 #include "conchoid/learn/sample.hpp"
 #include "conchoid/mesh/box_tree.hpp"
+#include "conchoid/sim/crack_sizes.hpp"
 #include "conchoid/sim/opening_source.hpp"
 #include "conchoid/sim/uncracked_stress.hpp"
 
@@ -35,18 +37,27 @@ class FrontSurroundings {
   struct Point {
     FrontFrame frame;
     Mat3 stress = Mat3::Zero();  // in the frame [Pa]
+    Vec3 taken = Vec3::Zero();       // over from the crack, in the frame [Pa]
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // on the crack, the moment about the point; in the frame
+    double arms = 0;                                   // K of the crack's sides as beams
+    std::array<double, kSides> beside{};
     double ahead = 0, wall = 0, curvature = 0;
     double crack_radius = 0, ligament_share = 0;
     Vec3 driving = Vec3::Zero(), nearby = Vec3::Zero(), slope = Vec3::Zero(), front = Vec3::Zero();
     int seen = -1;  // frame of the sheet
   };
+  std::vector<Mat3> stress_at_points(const CrackState& crack, const LoadCase& load, std::size_t version);
   void measure_front(const CrackState& crack);
   void measure_crack(const CrackState& crack);
+  void measure_sections(const CrackState& crack, const std::vector<CrackSize>& sizes);
 
   const PreparedBody& body_;
   BoxTree walls_;
   UncrackedStress uncracked_;
   std::vector<Point> points_;
+  // At nodes of the sheet inside, in the body's axes, under the load of that version.
+  std::unordered_map<NodeId, Mat3> stress_;
+  std::size_t version_ = 0;
   std::unordered_map<NodeId, Point> before_;
 };
 

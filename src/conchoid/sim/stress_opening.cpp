@@ -74,7 +74,7 @@ StressOpening::StressOpening(const PredictionContext& context)
 
 std::vector<FrontOpening> StressOpening::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
-  std::vector<Mat3> stress = uncracked_.at_points(crack, bem().body().load(), bem().loads());
+  std::vector<Mat3> stress = uncracked_.at_points(point_positions(crack), bem().body().load(), bem().loads());
   smooth(point_chains(crack), stress);
   const std::vector<CrackSize> sizes = crack_sizes(crack);
   for (std::size_t i = 0; i < out.size(); ++i) {

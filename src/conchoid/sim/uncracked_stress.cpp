@@ -11,11 +11,8 @@ constexpr double kDepth = 0.25;  // × r̄: nearer to the surface the stress is 
 
 UncrackedStress::UncrackedStress(const PreparedBody& body) : body_(body), surface_(body.surface) {}
 
-std::vector<Mat3> UncrackedStress::at_points(const CrackState& crack, const LoadCase& load,
+std::vector<Mat3> UncrackedStress::at_points(std::vector<Vec3> at, const LoadCase& load,
                                              std::size_t version) {
-  std::vector<Vec3> at;
-  for (const FrontPoint& point : crack.points)
-    at.push_back(crack.sheet.mesh.positions[point.node]);
   if (body_.infinite()) {
     std::vector<Mat3> stress;
     for (const Vec3& x : at)

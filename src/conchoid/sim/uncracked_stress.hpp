@@ -17,9 +17,9 @@ class UncrackedStress {
   /// @param body  must outlive the object
   explicit UncrackedStress(const PreparedBody& body);
 
-  /// σ [Pa] at every point of the crack, in the body's axes. Nearer to the surface than r̄/4 it is that of this depth.
+  /// σ [Pa] at points of the body, in the body's axes. Nearer to the surface than r̄/4 it is that of this depth.
   /// @param load     that acts; @param version  another one where the load is another
-  std::vector<Mat3> at_points(const CrackState& crack, const LoadCase& load, std::size_t version);
+  std::vector<Mat3> at_points(std::vector<Vec3> at, const LoadCase& load, std::size_t version);
 
   const ClosestPointTree& surface() const { return surface_; }
 
