@@ -52,8 +52,9 @@ std::vector<double> row_of(const Sample& s) {
 
 /// The crack normal reversed: e1 and e3 change sign, and which face is which.
 Sample reversed(Sample s) {
-  for (Vec3* K : {&s.K, &s.driving, &s.driving_nearby, &s.driving_front, &s.driving_after, &s.traction,
-                  &s.traction_after, &s.taken_over, &s.taken_over_after, &s.crack_force, &s.crack_moment, &s.opening})
+  for (Vec3* K :
+       {&s.K, &s.driving, &s.driving_nearby, &s.driving_front, &s.driving_after, &s.traction,
+        &s.traction_after, &s.taken_over, &s.taken_over_after, &s.crack_force, &s.crack_moment, &s.opening})
     (*K)[1] *= -1;
   for (const std::size_t k : {0, 2, 4, 6})
     std::swap(s.beside[k], s.beside[k + 1]);
@@ -98,8 +99,8 @@ TEST(VersatileFeatures, SizeUnitLoadAndToughnessDoNotCount) {
   for (Vec3* K : {&b.K, &b.driving, &b.driving_nearby, &b.driving_front, &b.driving_after})
     *K *= load * std::sqrt(s);
   b.driving_slope *= load / std::sqrt(s);
-  for (Vec3* stress : {&b.traction, &b.traction_after, &b.lateral, &b.lateral_after, &b.taken_over,
-                       &b.taken_over_after})
+  for (Vec3* stress :
+       {&b.traction, &b.traction_after, &b.lateral, &b.lateral_after, &b.taken_over, &b.taken_over_after})
     *stress *= load;
   b.crack_force *= load * s * s;
   b.crack_moment *= load * s * s * s;

@@ -10,10 +10,11 @@
 
 namespace conchoid {
 
+inline constexpr std::size_t kSides = 8;  ///< of Sample::beside
+
 /// What one front element did between two frames of a run, in physical quantities (SI) so that every feature
 /// set can be computed from it later. Components I, II, III are along e1 (crack normal), e2 (forward), e3
 /// (tangent) of the front frame of frame n−1.
-inline constexpr std::size_t kSides = 8;
 struct Sample {
   std::int32_t run = 0;
   std::int32_t frame = 0;      ///< n, the frame the label belongs to
@@ -46,16 +47,16 @@ struct Sample {
   double wall_distance_after = 0;      ///< [m]
   Vec3 traction_after = Vec3::Zero();  ///< [Pa]
   Vec3 lateral_after = Vec3::Zero();   ///< [Pa]
-  /// Traction that the ligament takes over from the crack (sim/net_section.hpp), at the node, in the front frame [Pa]
+  /// Traction that the ligament takes over from the crack (sim/net_section.hpp) at the node, in the front frame [Pa]
   Vec3 taken_over = Vec3::Zero();
   Vec3 taken_over_after = Vec3::Zero();
-  /// Force of σ e1 of the uncracked body over the crack, and its moment about the node, in the front frame, after [N, N m]
-  Vec3 crack_force = Vec3::Zero();
-  Vec3 crack_moment = Vec3::Zero();
-  double arms = 0, arms_after = 0;  ///< K that this moment gives if the sides of the crack are beams [Pa√m]
-  /// Distances to the body's surface along e1, −e1, (e2 ± e1)/√2, (−e2 ± e1)/√2, e3, −e3, after [m]; may be infinite
+  Vec3 crack_force = Vec3::Zero();   ///< of σ·e1 over the crack, in the front frame, after [N]
+  Vec3 crack_moment = Vec3::Zero();  ///< its moment about the node, likewise [N m]
+  double arms = 0;  ///< K of the crack's sides as beams that this moment bends (sim/net_section.hpp) [Pa√m]
+  double arms_after = 0;  ///< [Pa√m]
+  /// From the node to the body's surface along e1, −e1, (e2 ± e1)/√2, (−e2 ± e1)/√2, e3, −e3, after [m], may be infinite
   std::array<double, kSides> beside{};
-  Vec3 turn = Vec3::Zero();            ///< what the frame has turned: e2′·e1, e3′·e1, e2′·e3
+  Vec3 turn = Vec3::Zero();  ///< what the frame has turned: e2′·e1, e3′·e1, e2′·e3
   /// Label: K that drives the front of frame n, in its own front frame [Pa√m]
   Vec3 driving_after = Vec3::Zero();
   /// Label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]

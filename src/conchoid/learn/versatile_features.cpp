@@ -11,6 +11,7 @@ namespace conchoid {
 namespace {
 
 constexpr double kLeastGrowth = -4, kMostGrowth = 6;  // of ln S, in one frame
+constexpr double kMostNetGrowth = 3;                  // of ln of what the ligament carries
 // Of w_II and w_III as labels: beyond it they are mostly error of K at single points, at mouths and last ligaments, which
 // least squares would make everything of.
 constexpr double kMostShear = 0.5;
@@ -146,6 +147,45 @@ Mat3 turned_frame(const Vec3& turn) {
   return frame;
 }
 
+// ln(after/before), where both are something.
+double growth(double before, double after) {
+  return before > 0 && after > 0 ? std::clamp(std::log(after / before), -kMostNetGrowth, kMostNetGrowth) : 0;
+}
+
+template <class Put>
+void put_all(const Vec3& v, const Put& put) {
+  for (int k = 0; k < 3; ++k)
+    put(v[k]);
+}
+
+// @param S  of the K before; @param stress  |σ′|
+template <class Put>
+void put_net_section(const Sample& s, double S, double stress, const Put& put) {
+  const Vec3 before = s.traction + s.taken_over, net = s.traction_after + s.taken_over_after;
+  const double size = net.norm();
+  put_all(over(net, size), put);
+  put_all(over(s.taken_over_after, size + s.taken_over_after.norm()), put);
+  put(growth(before.norm(), size));
+  put(size + stress > 0 ? size / (size + stress) : 0);
+  put(tension_angle(net[0], s.lateral_after[0], net[1]));
+  put(tension_angle(net[0], s.lateral_after[1], net[2]));
+  const double force = s.crack_force.norm();
+  put_all(over(s.crack_force, force), put);
+  put_all(over(s.crack_moment, force * s.crack_radius + s.crack_moment.norm()), put);
+  put(growth(s.arms, s.arms_after));
+  put(S + s.arms > 0 ? S / (S + s.arms) : 0);
+}
+
+// Pairs of sides: how close in the mean, and which of them is nearer: d/d⁻ − d/d⁺, d the smaller of both.
+template <class Put>
+void put_walls(const Sample& s, const Put& put) {
+  for (std::size_t k = 0; k < kSides; k += 2) {
+    const double one = s.beside[k], other = s.beside[k + 1], near = std::min(one, other);
+    put((closeness(s.resolution, one) + closeness(s.resolution, other)) / 2);
+    put(std::isfinite(near) && near > 0 ? near / other - near / one : 0);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> versatile_feature_names() {
@@ -158,17 +198,13 @@ std::vector<std::string> versatile_feature_names() {
 void versatile_features(const Sample& s, std::span<double> row) {
   std::size_t n = 0;
   const auto put = [&](double x) { row[n++] = x; };
-  const auto put_all = [&](const Vec3& v) {
-    for (int k = 0; k < 3; ++k)
-      put(v[k]);
-  };
   const double S = size(s, s.driving), r = s.resolution;
   const Vec3 w = over(scaled(s, s.driving), S), near = over(scaled(s, s.driving_nearby), S);
-  put_all(w);
-  put_all(near);
-  put_all(over(scaled(s, s.driving_front), S));
-  put_all(over(r * scaled(s, s.driving_slope), S));
-  put_all(s.turn);
+  put_all(w, put);
+  put_all(near, put);
+  put_all(over(scaled(s, s.driving_front), S), put);
+  put_all(over(r * scaled(s, s.driving_slope), S), put);
+  put_all(s.turn, put);
   const double kink = std::asin(std::clamp(s.turn[0], -1.0, 1.0)), c = std::cos(kink), h = std::cos(kink / 2);
   put(0.5 * h * (w[0] * (1 + c) - 3 * w[1] * std::sin(kink)));
   put(0.5 * h * (w[0] * std::sin(kink) + w[1] * (3 * c - 1)));
@@ -183,33 +219,16 @@ void versatile_features(const Sample& s, std::span<double> row) {
   put(s.ligament_share);
   const double before = stress_size(s.traction, s.lateral),
                after = stress_size(s.traction_after, s.lateral_after);
-  put_all(over(s.traction, before));
-  put_all(over(s.traction_after, after));
-  put_all(over(s.lateral_after, after));
+  put_all(over(s.traction, before), put);
+  put_all(over(s.traction_after, after), put);
+  put_all(over(s.lateral_after, after), put);
   put(before > 0 && after > 0 ? std::log(after / before) : 0);
   const double load = after * std::sqrt(std::numbers::pi * s.crack_radius);
   put(S + load > 0 ? S / (S + load) : 0);
   put(tension_angle(s.traction_after[0], s.lateral_after[0], s.traction_after[1]));
   put(tension_angle(s.traction_after[0], s.lateral_after[1], s.traction_after[2]));
-  const Vec3 net_before = s.traction + s.taken_over, net = s.traction_after + s.taken_over_after;
-  put_all(over(net, net.norm()));
-  put_all(over(s.taken_over_after, net.norm() + s.taken_over_after.norm()));
-  const double grown = net.norm(), was = net_before.norm();
-  put(grown > 0 && was > 0 ? std::clamp(std::log(grown / was), -3.0, 3.0) : 0);
-  put(grown + after > 0 ? grown / (grown + after) : 0);
-  put(tension_angle(net[0], s.lateral_after[0], net[1]));
-  put(tension_angle(net[0], s.lateral_after[1], net[2]));
-  const double force = s.crack_force.norm(), lever = force * s.crack_radius;
-  put_all(over(s.crack_force, force));
-  put_all(over(s.crack_moment, lever + s.crack_moment.norm()));
-  put(s.arms > 0 && s.arms_after > 0 ? std::clamp(std::log(s.arms_after / s.arms), -3.0, 3.0) : 0);
-  put(S + s.arms > 0 ? S / (S + s.arms) : 0);
-  for (std::size_t k = 0; k < kSides; k += 2) {
-    const double one = closeness(r, s.beside[k]), other = closeness(r, s.beside[k + 1]);
-    put((one + other) / 2);
-    const double near = std::min(s.beside[k], s.beside[k + 1]);
-    put(std::isfinite(near) && near > 0 ? near / s.beside[k + 1] - near / s.beside[k] : 0);
-  }
+  put_net_section(s, S, after, put);
+  put_walls(s, put);
   put(s.poisson_ratio);
 }
 

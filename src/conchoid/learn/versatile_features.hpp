@@ -17,7 +17,12 @@ namespace conchoid {
 // front has made and what a kink by that angle leaves of K (Nuismer 1975); r⁻/r̄, r⁺/r̄; r̄/(r̄ + distance) to the surface
 // straight ahead and nearest, before and after; curvature of the front × r̄, before and after; r̄/crack radius; share of the
 // ligament; traction before over |σ|, all of σ′ over |σ′|; ln |σ′|/|σ|; S/(S + |σ|√(πa)); directions of greatest tension
-// in the planes e1-e2 and e1-e3; ν. Nothing tells the size of the load or K_c, so both may be anything.
+// in the planes e1-e2 and e1-e3; ν. Of the net section (sim/net_section.hpp): traction that the ligament carries after, what it
+// has taken over from the crack, growth of the first, its share with |σ′|, directions of greatest tension with it; force of the
+// crack, lever arms of its moment over the crack's radius, growth of the K that this moment gives to the sides as beams, S beside
+// it. Of the walls after, across the crack (±e1), across it ahead and behind, and along the front (±e3): closeness r̄/(r̄ + distance)
+// in the mean of both sides, and how lopsided they are, d/d⁻ − d/d⁺ with d the nearer one. These tell which side of the crack
+// is the weaker beam: cracks turn to it. Nothing tells the size of the load or K_c, so both may be anything.
 //
 // Label: ln(S′/S), and w_II′ and w_III′ within ± 0.5, where nearly all are that are more than error. Nothing learned is
 // zero: the front goes straight on, opened by the K that it had. (Learning what "K as it was in the front's own frame"

@@ -64,9 +64,8 @@ void FrontSurroundings::measure(const CrackState& crack, const LoadCase& load, s
     p.stress = axes.transpose() * stress[i] * axes;
     const Vec3& x = crack.sheet.mesh.positions[crack.points[i].node];
     p.ahead = exit_distance(body_.surface, walls_, x, p.frame.e2);
-    p.beside = distances_beside(p.frame, [&](const Vec3& along) {
-      return exit_distance(body_.surface, walls_, x, along);
-    });
+    p.beside = distances_beside(
+        p.frame, [&](const Vec3& along) { return exit_distance(body_.surface, walls_, x, along); });
     p.wall = std::sqrt(uncracked_.surface().closest(x).squared_distance);
     p.seen = crack.sheet.frame;
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <unordered_map>
 #include <array>
+#include <unordered_map>
 #include <vector>
 
 #include "conchoid/learn/sample.hpp"
@@ -37,9 +37,10 @@ class FrontSurroundings {
   struct Point {
     FrontFrame frame;
     Mat3 stress = Mat3::Zero();  // in the frame [Pa]
-    Vec3 taken = Vec3::Zero();       // over from the crack, in the frame [Pa]
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // on the crack, the moment about the point; in the frame
-    double arms = 0;                                   // K of the crack's sides as beams
+    Vec3 taken = Vec3::Zero();   // over from the crack, in the frame [Pa]
+    Vec3 force = Vec3::Zero(),
+         moment = Vec3::Zero();  // on the crack, the moment about the point; in the frame
+    double arms = 0;             // K of the crack's sides as beams
     std::array<double, kSides> beside{};
     double ahead = 0, wall = 0, curvature = 0;
     double crack_radius = 0, ligament_share = 0;
