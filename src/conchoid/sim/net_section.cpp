@@ -32,8 +32,10 @@ struct Moments {
 std::vector<const Mat3*> stress_in_cut(const CrackState& crack,
                                        const std::unordered_map<NodeId, Mat3>& stress) {
   std::vector<const Mat3*> known(crack.trimmed.node_count(), nullptr);
-  for (const auto& [node, value] : stress)
-    if (const NodeId in_cut = crack.node_in_cut[node]; in_cut.valid()) known[in_cut.index()] = &value;
+  for (std::size_t n = 0; n < crack.node_in_cut.size(); ++n)
+    if (const NodeId in_cut = crack.node_in_cut[NodeId(n)]; in_cut.valid())
+      if (const auto found = stress.find(NodeId(n)); found != stress.end())
+        known[in_cut.index()] = &found->second;
   return known;
 }
 
