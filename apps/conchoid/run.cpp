@@ -57,9 +57,9 @@ std::string report_text(const RunDocument& d) {
 
 /// What is to be run: a scene, or one run of a specification, whose text then tells which.
 PreparedRun run_of(const RunCommand& command) {
-  const auto set = [&](Scene& scene) {
+  const auto set = [&, cache = open_cache(command.cache)](Scene& scene) {
     scene.run.solver = command.solver;
-    scene.run.cache = open_cache(command.cache);
+    scene.run.cache = cache;
   };
   if (command.run < 0) {
     PreparedRun out{read_scene(command.scene), nullptr, {}};

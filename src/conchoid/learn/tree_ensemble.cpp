@@ -31,7 +31,7 @@ void check_arrays(const RegressionTree& tree) {
 
 TreeEnsemble::TreeEnsemble(const std::vector<RegressionTree>& trees, int features) : features_(features) {
   if (features < 1 || features > static_cast<int>(max_features))
-    refuse("the number of features must lie between 1 and 128");
+    refuse("the number of features must lie between 1 and " + std::to_string(max_features));
   for (const RegressionTree& tree : trees) {
     check_arrays(tree);
     if (nodes_.size() + tree.size() > max_nodes) refuse("the forest has too many nodes");

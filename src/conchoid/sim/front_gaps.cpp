@@ -1,14 +1,18 @@
 #include "conchoid/sim/front_gaps.hpp"
 
 #include <optional>
-#include <unordered_map>
 
 namespace conchoid {
 
-std::vector<PointChain> point_chains(const CrackState& crack) {
-  std::unordered_map<NodeId, std::size_t> point_at;  // by node of the cut complex
+std::unordered_map<NodeId, std::size_t> points_by_cut_node(const CrackState& crack) {
+  std::unordered_map<NodeId, std::size_t> point_at;
   for (std::size_t i = 0; i < crack.points.size(); ++i)
     point_at[crack.node_in_cut[crack.points[i].node]] = i;
+  return point_at;
+}
+
+std::vector<PointChain> point_chains(const CrackState& crack) {
+  const std::unordered_map<NodeId, std::size_t> point_at = points_by_cut_node(crack);
   std::vector<PointChain> chains;
   for (const Front& front : crack.fronts) {
     PointChain chain{{}, front.closed};

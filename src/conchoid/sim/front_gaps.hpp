@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <unordered_map>
 #include <vector>
 
 #include "conchoid/sim/opening_source.hpp"
@@ -15,6 +16,9 @@ struct PointChain {
 };
 
 std::vector<PointChain> point_chains(const CrackState& crack);
+
+/// Index into CrackState::points by node of the cut, as fronts have them; their ends at the surface are no points.
+std::unordered_map<NodeId, std::size_t> points_by_cut_node(const CrackState& crack);
 
 /// Gives every point without a K of its own (known = false) the mean K of the nearest points of its chain
 /// that have one, one to each side, counted in points. Where no point of the chain has one they stay unknown,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "conchoid/sim/front_gaps.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -79,9 +81,7 @@ std::vector<std::optional<Vec3>> ways_ahead(const Front& front,
 std::vector<Moments> add_fronts(const CrackState& crack, const std::vector<int>& part,
                                 const std::vector<double>& ahead, std::vector<NetSection>& out) {
   const TriMesh& mesh = crack.trimmed;
-  std::unordered_map<NodeId, std::size_t> point_at;
-  for (std::size_t i = 0; i < crack.points.size(); ++i)
-    point_at[crack.node_in_cut[crack.points[i].node]] = i;
+  const std::unordered_map<NodeId, std::size_t> point_at = points_by_cut_node(crack);
   std::vector<Moments> ligaments(out.size());
   for (const Front& front : crack.fronts) {
     const auto ways = ways_ahead(front, point_at, crack, ahead);

@@ -18,7 +18,7 @@ struct NetSection {
   Vec3 force = Vec3::Zero();   ///< F [N]
   Vec3 moment = Vec3::Zero();  ///< M about the origin [N m]
   double front = 0;            ///< length of the crack's fronts inside [m]
-  double ligament = 0;         ///< A [m²]; infinite in an infinite body, which takes over nothing
+  double ligament = 0;         ///< A [m²]; not finite in an infinite body, which takes over nothing
   Vec3 center = Vec3::Zero();  ///< c [m]
   Vec3 turn = Vec3::Zero();    ///< ω [Pa/m]
 
