@@ -6,10 +6,10 @@ cd "$(dirname "$0")/.."
 conchoid=${1:-build/conchoid}
 work=${2:-build/databases-work}
 mkdir -p "$work"
-for name in cube cylinder bar world; do
+for name in cube cylinder bar edge-crack armadillo world; do
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
-for name in cube cylinder bar; do
+for name in cube cylinder bar edge-crack armadillo; do
   "$conchoid" forest train "$work/$name.h5" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
 done
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \

@@ -6,7 +6,8 @@
 WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) and keeps regressors and results. For every class: a specification with
 another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
-of the scene, and hybrid; and once more under 2.5 times the load.
+of the scene, and hybrid; and once more under 2.5 times the load. The study `own` is of bodies by databases of nothing else, under loads that these have not
+seen; WORK then needs plate.forest, of databases/plate.toml.
 """
 import argparse
 import json
@@ -20,7 +21,13 @@ WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "pol
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
 MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
           "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
-STUDIES = ["whole-runs", "load", "noise"]
+STUDIES = ["whole-runs", "load", "noise", "own"]
+# Bodies by their own databases: its name, what differs from its specification, the first run that it has not seen.
+OWN = {"cube": ("cube", {}, 0), "cylinder": ("cylinder", {}, 0), "bar": ("bar", {}, 0),
+       "edge crack, mode I": ("edge-crack", {"slope": "[0.0, 20.0]"}, 0),
+       "edge crack, mode II": ("edge-crack", {"direction": "[1.0, 0.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
+       "edge crack, mode III": ("edge-crack", {"direction": "[0.0, 1.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
+       "plate": ("plate", {}, 240), "armadillo": ("armadillo", {}, 0)}
 TOLERANCES = ["0.005", "0.01"]  # of hybrid runs
 LOAD = 2.5
 ARMADILLO = """[body]
@@ -55,6 +62,19 @@ slope = [0.0, 40.0]
 """
 
 
+def shipped_specification(name, runs, changes, seed=2024):
+    """A specification of databases/ with other values; new keys come last, into [database]."""
+    changes, lines = {"runs": str(runs), "seed": str(seed), **changes}, []
+    for line in (ROOT / "databases" / f"{name}.toml").read_text().splitlines():
+        key = line.split(" = ")[0]
+        if key == "mesh":
+            line = f'mesh = "{(ROOT / "databases" / line.split(chr(34))[1]).resolve()}"'
+        elif key in changes:
+            line = f"{key} = {changes.pop(key)}"
+        lines.append(line)
+    return "\n".join(lines + [f"{k} = {v}" for k, v in changes.items()]) + "\n"
+
+
 def call(program, *arguments):
     done = subprocess.run([program, *map(str, arguments), "--quiet"], capture_output=True, text=True)
     if done.returncode != 0:
@@ -66,9 +86,7 @@ def specification(name, runs, armadillo):
     if name == "armadillo":
         return ARMADILLO.format(file=armadillo, runs=runs)
     if name in ("cube", "cylinder model", "bar"):
-        text = (ROOT / "databases" / f"{name.split()[0]}.toml").read_text()
-        return "\n".join(f"seed = 2024" if line.startswith("seed") else f"runs = {runs}" if line.startswith("runs") else line
-                         for line in text.splitlines()) + "\n"
+        return shipped_specification(name.split()[0], runs, {})
     return f'[world]\nclasses = ["{name}"]\nruns_per_body = 1\nelements = 150\n[database]\nruns = {runs}\nseed = 2024\nframes = 31\n'
 
 
@@ -85,8 +103,21 @@ def regressors(program, work, title, *options):
 
 
 def result_of(program, work, name, study, runs, armadillo, files, *options):
+    return result_of_text(program, work, name, study, runs, specification(name, runs, armadillo), files, *options)
+
+
+def own_result(program, work, name, runs):
+    """As result_of(), by the database of the body alone."""
+    database, changes, first = OWN[name]
+    seed = {"seed": 8} if first else {}  # the same body, other runs
+    text = shipped_specification(database, first + runs, changes, **seed)
+    file = (work if database == "plate" else ROOT / "databases") / f"{database}.forest"
+    return result_of_text(program, work, name.replace(",", ""), "own", runs, text, [file], "--first", first)
+
+
+def result_of_text(program, work, name, study, runs, text, files, *options):
     result = work / f"{study}-{name.replace(' ', '-')}-{runs}.json"
-    spec, text = result.with_suffix(".toml"), specification(name, runs, armadillo)
+    spec = result.with_suffix(".toml")
     if not (result.exists() and spec.exists() and spec.read_text() == text):  # another scan is another body
         spec.write_text(text)
         result.unlink(missing_ok=True)
@@ -112,7 +143,7 @@ def role_of(method, name):
     title, kind = regressor.rsplit(".", 1) if regressor.endswith(tuple("." + k for k in MODELS)) else (regressor, "")
     if title.startswith("without") or (name == "armadillo" and title == "all"):
         title = "left out"
-    elif title == name.split()[0]:
+    elif title in (name.split()[0], OWN.get(name, [""])[0]):
         title = "own"
     return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
 
@@ -145,6 +176,22 @@ def table(results, columns):
     print(flush=True)
 
 
+def own_table(results):
+    """Of each body: the closed forms' medians, then what its own database is off by."""
+    print("| body | runs | steady, kept, stress | median | 95 % | largest | frames within one | at the frame limit |\n" + "|---" * 8 + "|")
+    for name, result in results:
+        runs = {}
+        for r in result["runs"]:
+            runs.setdefault(role_of(r["method"], name), []).append(r)
+        off = sorted(100 * r["surface_mean"] for r in runs["own"])
+        near = sum(abs(r["frames"][0] - r["frames"][1]) <= 1 for r in runs["own"])
+        lost = sum(r["stop"] == "frame-limit" != r["solved_stop"] for r in runs["own"])
+        closed = ", ".join(f"{100 * statistics.median(r['surface_mean'] for r in runs[c]):.2f}" for c in ("steady", "kept", "stress"))
+        print(f"| {name} | {len(off)} | {closed} | {statistics.median(off):.2f} | {off[int(0.95 * (len(off) - 1))]:.2f} | {off[-1]:.1f} | "
+              f"{near} of {len(off)} | {lost} |", flush=True)
+    print(flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -167,6 +214,10 @@ def main():
     if "whole-runs" in studies:
         print("Whole runs\n")
         table(run("whole-runs", a.runs, files), closed + learned)
+    if "own" in studies:
+        print("By their own databases, loads not seen\n")
+        chosen = [n for n in a.only.split(",") if n in OWN] if a.only else OWN
+        own_table([(n, own_result(a.program, a.work, n, 2 * a.runs)) for n in chosen])
     if "load" in studies:
         print(f"Load x {LOAD}\n")
         table(run("load", few, files, "--load", LOAD), closed + learned)

@@ -172,7 +172,7 @@ const std::vector<BadInput> kBadInputs = {
     {"database_of_unknown_name",
      scene(kCube),
      {"run", "scene.toml", "--method", "forest", "--database", "teapot"},
-     {"teapot", "cube, cylinder, bar, versatile", "forest train"}},
+     {"teapot", "cube, cylinder, bar, edge-crack, armadillo, versatile", "forest train"}},
     {"bem_with_forest",
      broken_forest([](auto& f) { return f; }),
      {"run", "scene.toml", "--database", "good.forest"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,13 +16,21 @@ namespace conchoid {
 class QuadraticBody;
 
 struct BemSettings {
-  double quadrature_tolerance = 1e-6;  ///< wanted relative error of a pair's integrals, 1e-3 … 1e-11
+  /// Wanted relative error of the integrals of a pair of the body's triangles, 1e-3 … 1e-11; of pairs with a crack's triangle
+  /// crack_tolerance() of it.
+  double quadrature_tolerance = 1e-6;
   bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
   std::string solver = "dense";        ///< one of body_solver_names()
   std::shared_ptr<const ByteCache> cache = nullptr;  ///< of factors and columns of loads, made or used before
   /// The same body with quadratic elements, in which cracks then open (CrackHost); none: in these, linear ones.
   std::shared_ptr<const QuadraticBody> quadratic = nullptr;
 };
+
+/// Walls that bend cancel most of what the body's pairs add up to; K cancels nothing and needs less: with a hundred times the error
+/// it moves by some 1e-5 (docs/verification.md), and rows take a quarter less time.
+constexpr double crack_tolerance(double quadrature_tolerance) {
+  return std::min(100 * quadrature_tolerance, 1e-3);
+}
 
 /// An uncracked elastic body: surface, material, and which quantity is prescribed where. Its boundary element
 /// system is assembled and factored once, on construction; what is prescribed comes later, as load cases.

@@ -52,6 +52,7 @@ class RowAssembler {
         source_count_(sources.size()),
         part_(part),
         memory_(memory),
+        integrator_(crack_tolerance(body.settings().quadrature_tolerance)),
         source_of_triangle_(body_.surface.triangle_count(), -1),
         source_of_node_(body_.surface.node_count(), -1),
         trial_(space.panels.size()),
@@ -230,14 +231,14 @@ class RowAssembler {
       if (const SingleLayerPair* known = memory_->single_layer(x, y)) return *known;
       if (const SingleLayerPair* known = memory_->single_layer(y, x)) return *known;
     }
-    return body_.integrator.single_layer(space_.panels[x], space_.panels[y]);
+    return integrator_.single_layer(space_.panels[x], space_.panels[y]);
   }
 
   // Tested on x, with the functions of surface piece y.
   DoubleLayerPair double_layer(std::size_t x, std::size_t y) const {
     if (memory_)
       if (const DoubleLayerPair* known = memory_->double_layer(x, y)) return *known;
-    return body_.integrator.double_layer(space_.panels[y], space_.panels[x]);
+    return integrator_.double_layer(space_.panels[y], space_.panels[x]);
   }
 
   SingleLayerPair pair(std::size_t x, std::size_t y) const {
@@ -305,6 +306,7 @@ class RowAssembler {
   const std::size_t source_count_;
   const Part part_;
   PairMemory* memory_;
+  const PairIntegrator integrator_;
   std::vector<PairMemory::Row> made_;                     // per panel; empty without a memory
   std::vector<int> source_of_triangle_, source_of_node_;  // −1: none
   std::vector<std::array<Vec3, 3>> curls_;

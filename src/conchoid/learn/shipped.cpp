@@ -32,8 +32,8 @@ std::string known_names() {
 }  // namespace
 
 const std::vector<std::string_view>& shipped_names() {
-  static const std::vector<std::string_view> names = {"cube", "cylinder", "bar", "versatile",
-                                                      "versatile.boosted"};
+  static const std::vector<std::string_view> names = {
+      "cube", "cylinder", "bar", "edge-crack", "armadillo", "versatile", "versatile.boosted"};
   return names;
 }
 

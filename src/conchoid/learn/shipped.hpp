@@ -9,9 +9,9 @@ namespace conchoid {
 
 /// Regressors that come with the program, by name, each a file in the folder databases/, NAME.forest where the name tells
 /// no kind:
-///   cube, cylinder, bar   of one body each, under random loads
-///   versatile             of many classes of bodies: for any scene
-///   versatile.boosted     the same as boosted trees: for bodies unlike all of these
+///   cube, cylinder, bar, edge-crack, armadillo   of one body each, under random loads
+///   versatile            of many classes of bodies: for any scene
+///   versatile.boosted    the same as boosted trees: for bodies unlike all of these
 /// How they were made: databases/README.md, scripts/make_databases.sh.
 const std::vector<std::string_view>& shipped_names();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -18,19 +19,23 @@
 namespace conchoid {
 namespace {
 
-/// Two parts that meet and can be united.
-std::optional<std::pair<std::size_t, std::size_t>> meeting_parts(const TriMesh& mesh,
-                                                                 const std::vector<SurfacePart>& parts) {
+bool is_body(const SurfacePart& part) {
+  return part.closed && part.volume > 0;
+}
+
+/// Pairs of bodies that pass through or touch each other.
+std::set<std::pair<std::size_t, std::size_t>> meeting_bodies(const TriMesh& mesh,
+                                                             const std::vector<SurfacePart>& parts) {
   IdVector<TriId, std::size_t> part_of(mesh.triangle_count());
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const TriId t : parts[p].triangles)
       part_of[t] = p;
-  const auto is_body = [&](std::size_t p) { return parts[p].closed && parts[p].volume > 0; };
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (const auto& [s, t] : self_intersections(mesh, std::numeric_limits<std::size_t>::max())) {
     const std::size_t p = part_of[s], q = part_of[t];
-    if (p != q && is_body(p) && is_body(q)) return std::pair(std::min(p, q), std::max(p, q));
+    if (p != q && is_body(parts[p]) && is_body(parts[q])) pairs.emplace(std::min(p, q), std::max(p, q));
   }
-  return std::nullopt;
+  return pairs;
 }
 
 /// Cut pieces have needles and flat triangles where an edge of one passes close to a node of the other.
@@ -41,6 +46,7 @@ void clean(TriMesh& mesh) {
   flip_flat_triangles(mesh);
 }
 
+/// Both as one body; nothing where they stay two, as such do that touch in points.
 std::optional<TriMesh> united(const TriMesh& a, const TriMesh& b) {
   TriMesh out;
   try {
@@ -55,28 +61,35 @@ std::optional<TriMesh> united(const TriMesh& a, const TriMesh& b) {
   if (out.corners.empty()) return std::nullopt;
   clean(out);
   drop_unused_nodes(out);
+  const std::vector<SurfacePart> parts = surface_parts(out);
+  if (std::count_if(parts.begin(), parts.end(), is_body) > 1) return std::nullopt;
   return out;
+}
+
+/// Unites the first pair that can be.
+bool unite_two(TriMesh& mesh) {
+  const std::vector<SurfacePart> parts = surface_parts(mesh);
+  if (parts.size() < 2) return false;
+  for (const auto& [a, b] : meeting_bodies(mesh, parts)) {
+    throw_if_interrupted();
+    std::optional<TriMesh> one = united(submesh(mesh, parts[a].triangles), submesh(mesh, parts[b].triangles));
+    if (!one) continue;
+    std::vector<TriMesh> all = {*std::move(one)};
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (p != a && p != b) all.push_back(submesh(mesh, parts[p].triangles));
+    mesh = join(all);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 std::size_t unite_bodies(TriMesh& mesh) {
   std::size_t count = 0;
-  while (true) {
-    throw_if_interrupted();
-    const std::vector<SurfacePart> parts = surface_parts(mesh);
-    if (parts.size() < 2) return count;
-    const auto pair = meeting_parts(mesh, parts);
-    if (!pair) return count;
-    std::optional<TriMesh> one =
-        united(submesh(mesh, parts[pair->first].triangles), submesh(mesh, parts[pair->second].triangles));
-    if (!one) return count;
+  while (unite_two(mesh))
     ++count;
-    std::vector<TriMesh> all = {*std::move(one)};
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (p != pair->first && p != pair->second) all.push_back(submesh(mesh, parts[p].triangles));
-    mesh = join(all);
-  }
+  return count;
 }
 
 }  // namespace conchoid

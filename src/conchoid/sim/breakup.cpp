@@ -286,9 +286,10 @@ void Breakup::State::end_piece() {
   if (interrupted() || !(grown() || fracture->parted()))
     return;  // a last ligament may break before anything grows
   std::optional<Pieces> clean;
-  const std::size_t ways = fracture->parted() != nullptr ? 1 : kShifts.size();  // what has parted it stays
-  for (std::size_t i = 0; i < ways && !clean; ++i)
+  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i) {
     clean = solid_pieces(*fracture, output, kShifts[i] * body->surface_edge);
+    if (clean && fracture->parted() && clean->fragments.size() < 2) clean.reset();
+  }
   if (!clean) {
     warnings.push_back(
         fmt::format("after frame {}: what broke further in a piece could not be cut out of it cleanly; the "

@@ -95,7 +95,7 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
     for (Vec3& x : sheet.positions)
       x += shift;
   BodyCut cut =
-      fracture.parted() ? *fracture.parted() : cut_body(body, fracture.settings(), std::move(sheets));
+      fracture.parted() && shift.isZero(0) ? *fracture.parted() : cut_body(body, fracture.settings(), std::move(sheets));
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
   out.crack = join({cut.inside ? *cut.inside : trimmed_crack(body, cut.sheets), cut.ligament});

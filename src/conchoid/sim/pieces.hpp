@@ -21,7 +21,8 @@ struct Pieces {
 /// Cuts the body by its cracks as they stand: pieces with mass, attributes as `output` asks for, and the
 /// cracks that end in them, so that each can be a body of its own (body_from_fragment()). Pieces too small are
 /// joined to neighbours as the run's settings say. The infinite body has no pieces.
-/// @param shift  of the visible cracks [m], where they have not parted the body: out of the way of what they graze
+/// @param shift  of the visible cracks [m], out of the way of what they graze; with one the body is cut anew, whatever has
+///               parted it
 Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output = {},
                        const Vec3& shift = Vec3::Zero());
 
