@@ -1,18 +1,20 @@
 #include <algorithm>
 #include <vector>
 
+#include "conchoid/bem/body_operator.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/quadrature/cases.hpp"
 #include "quadrature/oracle.hpp"
 #include "quadrature/pair_table.hpp"
 #include "side_by_side.hpp"
 
-// Pairs per second of the product against adaptive integration of the closed-form potential, both to 1e-6.
+// Pairs per second of the product against adaptive integration of the closed-form potential, both to the error that the body's own
+// pairs are integrated to, or those with a crack's triangle.
 
 namespace conchoid::bench {
 namespace {
 
-constexpr double kTolerance = 1e-6;
+const double kBody = BemSettings{}.quadrature_tolerance, kCrack = crack_tolerance(kBody);
 enum class Layout { far, common_edge, common_vertex, near };
 
 struct Pair {
@@ -20,7 +22,7 @@ struct Pair {
 };
 
 // Pairs of a sphere's 320 triangles that the far rules take, every 97th of them.
-std::vector<Pair> far_pairs_of_a_sphere() {
+std::vector<Pair> far_pairs_of_a_sphere(double tolerance) {
   const TriMesh sphere = icosphere(1, 2);
   std::vector<Panel> panels;
   for (std::size_t t = 0; t < sphere.triangle_count(); ++t)
@@ -28,14 +30,14 @@ std::vector<Pair> far_pairs_of_a_sphere() {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < panels.size() * panels.size(); i += 97) {
     const Panel &x = panels[i / panels.size()], &y = panels[i % panels.size()];
-    if (shared_corners(x, y).count == 0 && far_degrees(Layer::single, x, y, kTolerance).enough())
+    if (shared_corners(x, y).count == 0 && far_degrees(Layer::single, x, y, tolerance).enough())
       pairs.push_back({x, y});
   }
   return pairs;
 }
 
-std::vector<Pair> pairs_of(Layout layout) {
-  if (layout == Layout::far) return far_pairs_of_a_sphere();
+std::vector<Pair> pairs_of(Layout layout, double tolerance) {
+  if (layout == Layout::far) return far_pairs_of_a_sphere(tolerance);
   std::vector<Pair> pairs;
   for (const auto& p : layout == Layout::common_edge     ? oracle::common_edge_pairs()
                        : layout == Layout::common_vertex ? oracle::common_vertex_pairs()
@@ -78,20 +80,20 @@ void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast
   state.counters["worst_error"] = worst;
 }
 
-void single_layer(benchmark::State& state, Layout layout) {
-  const PairIntegrator integrator(kTolerance);
+void single_layer(benchmark::State& state, Layout layout, double tolerance) {
+  const PairIntegrator integrator(tolerance);
   const auto fast = [&](const Pair& p) { return integrator.single_layer(p.x, p.y); };
-  const auto slow = [](const Pair& p) { return oracle::single_layer(p.x, p.y, kTolerance); };
-  compare_pairs(state, pairs_of(layout), fast, slow, [&](const Pair& p) {
+  const auto slow = [&](const Pair& p) { return oracle::single_layer(p.x, p.y, tolerance); };
+  compare_pairs(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
     return oracle::relative_error(oracle::family(fast(p)), oracle::single_layer(p.x, p.y, 1e-10));
   });
 }
 
-void double_layer(benchmark::State& state, Layout layout) {
-  const PairIntegrator integrator(kTolerance);
+void double_layer(benchmark::State& state, Layout layout, double tolerance) {
+  const PairIntegrator integrator(tolerance);
   const auto fast = [&](const Pair& p) { return integrator.double_layer(p.x, p.y); };
-  const auto slow = [](const Pair& p) { return oracle::double_layer(p.x, p.y, kTolerance); };
-  compare_pairs(state, pairs_of(layout), fast, slow, [&](const Pair& p) {
+  const auto slow = [&](const Pair& p) { return oracle::double_layer(p.x, p.y, tolerance); };
+  compare_pairs(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
     return oracle::double_layer_error(p.x, p.y, oracle::vector(fast(p)),
                                       oracle::double_layer(p.x, p.y, 1e-10));
   });
@@ -99,27 +101,51 @@ void double_layer(benchmark::State& state, Layout layout) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(single_layer, far, Layout::far)
+BENCHMARK_CAPTURE(single_layer, far, Layout::far, kBody)
     ->Iterations(20)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_edge, Layout::common_edge)
+BENCHMARK_CAPTURE(single_layer, common_edge, Layout::common_edge, kBody)
     ->Iterations(10)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_vertex, Layout::common_vertex)
+BENCHMARK_CAPTURE(single_layer, common_vertex, Layout::common_vertex, kBody)
     ->Iterations(10)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, near, Layout::near)
+BENCHMARK_CAPTURE(single_layer, near, Layout::near, kBody)
     ->Iterations(10)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, far, Layout::far)
+BENCHMARK_CAPTURE(double_layer, far, Layout::far, kBody)
     ->Iterations(20)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, near, Layout::near)
+BENCHMARK_CAPTURE(double_layer, near, Layout::near, kBody)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, far_of_cracks, Layout::far, kCrack)
+    ->Iterations(20)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, common_edge_of_cracks, Layout::common_edge, kCrack)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, common_vertex_of_cracks, Layout::common_vertex, kCrack)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_layer, near_of_cracks, Layout::near, kCrack)
+    ->Iterations(10)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(double_layer, far_of_cracks, Layout::far, kCrack)
+    ->Iterations(20)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(double_layer, near_of_cracks, Layout::near, kCrack)
     ->Iterations(10)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
