@@ -50,7 +50,8 @@ void cube_solved(benchmark::State& state) {
   state.counters["processor_ms"] = 1e3 * processor;
   if (!a.fragments.empty() && !b.fragments.empty())
     state.counters["volume_difference"] = std::abs(a.fragments[0].volume - b.fragments[0].volume);
-  state.SetLabel((t.fast < 0.5 ? "goal 0.5 s: met, " : "goal 0.5 s: missed, ") + std::string(name(a.document.stop)));
+  state.SetLabel((t.fast < 0.5 ? "goal 0.5 s: met, " : "goal 0.5 s: missed, ") +
+                 std::string(name(a.document.stop)));
 }
 
 // Predicted after frame 1 without a forest ("K stays as it is"), against solved.
@@ -80,7 +81,8 @@ void surface_refined(benchmark::State& state) {
   if (!a.front.empty() && !b.front.empty())
     difference = std::abs(a.front.back().intensity[0] - b.front.back().intensity[0]);
   state.counters["intensity_difference"] = difference;
-  state.SetLabel((t.slow < 5 * t.fast ? "goal 5: met, " : "goal 5: missed, ") + std::string(name(a.document.stop)));
+  state.SetLabel((t.slow < 5 * t.fast ? "goal 5: met, " : "goal 5: missed, ") +
+                 std::string(name(a.document.stop)));
 }
 
 }  // namespace

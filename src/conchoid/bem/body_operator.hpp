@@ -19,8 +19,8 @@ struct BemSettings {
   /// Wanted relative error of the integrals of a pair of the body's triangles, 1e-3 … 1e-11; of pairs with a crack's triangle
   /// crack_tolerance() of it.
   double quadrature_tolerance = 1e-6;
-  bool contact = true;                 ///< crack faces do not interpenetrate (they slide without friction)
-  std::string solver = "dense";        ///< one of body_solver_names()
+  bool contact = true;           ///< crack faces do not interpenetrate (they slide without friction)
+  std::string solver = "dense";  ///< one of body_solver_names()
   std::shared_ptr<const ByteCache> cache = nullptr;  ///< of factors and columns of loads, made or used before
   /// The same body with quadratic elements, in which cracks then open (CrackHost); none: in these, linear ones.
   std::shared_ptr<const QuadraticBody> quadratic = nullptr;

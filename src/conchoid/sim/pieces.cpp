@@ -94,8 +94,8 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
   for (TriMesh& sheet : sheets)
     for (Vec3& x : sheet.positions)
       x += shift;
-  BodyCut cut =
-      fracture.parted() && shift.isZero(0) ? *fracture.parted() : cut_body(body, fracture.settings(), std::move(sheets));
+  BodyCut cut = fracture.parted() && shift.isZero(0) ? *fracture.parted()
+                                                     : cut_body(body, fracture.settings(), std::move(sheets));
   out.fragments = std::move(cut.fragments);
   out.warnings = std::move(cut.warnings);
   out.crack = join({cut.inside ? *cut.inside : trimmed_crack(body, cut.sheets), cut.ligament});

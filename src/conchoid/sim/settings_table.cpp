@@ -389,7 +389,8 @@ const std::vector<Setting>& settings() {
        0,
        {"auto", "linear", "quadratic"}},
       {"run", "quadrature_tolerance", number, "", "1e-6",
-       "relative error of the integrals over pairs of the body's triangles, a hundred times that (1e-3 at most) with cracks: "
+       "relative error of the integrals over pairs of the body's triangles, a hundred times that (1e-3 at "
+       "most) with cracks: "
        "K needs 1e-3, walls that bend need 1e-6",
        between(1e-11, 1e-3)},
       {"run",
