@@ -101,53 +101,22 @@ void double_layer(benchmark::State& state, Layout layout, double tolerance) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(single_layer, far, Layout::far, kBody)
-    ->Iterations(20)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_edge, Layout::common_edge, kBody)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_vertex, Layout::common_vertex, kBody)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, near, Layout::near, kBody)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, far, Layout::far, kBody)
-    ->Iterations(20)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, near, Layout::near, kBody)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, far_of_cracks, Layout::far, kCrack)
-    ->Iterations(20)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_edge_of_cracks, Layout::common_edge, kCrack)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, common_vertex_of_cracks, Layout::common_vertex, kCrack)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(single_layer, near_of_cracks, Layout::near, kCrack)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, far_of_cracks, Layout::far, kCrack)
-    ->Iterations(20)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(double_layer, near_of_cracks, Layout::near, kCrack)
-    ->Iterations(10)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
+// One layout to both errors.
+#define CONCHOID_BENCHMARK_PAIRS(layer, layout, rounds)                \
+  BENCHMARK_CAPTURE(layer, layout, Layout::layout, kBody)              \
+      ->Iterations(rounds)                                             \
+      ->UseManualTime()                                                \
+      ->Unit(benchmark::kMillisecond);                                 \
+  BENCHMARK_CAPTURE(layer, layout##_of_cracks, Layout::layout, kCrack) \
+      ->Iterations(rounds)                                             \
+      ->UseManualTime()                                                \
+      ->Unit(benchmark::kMillisecond)
+
+CONCHOID_BENCHMARK_PAIRS(single_layer, far, 20);
+CONCHOID_BENCHMARK_PAIRS(single_layer, common_edge, 10);
+CONCHOID_BENCHMARK_PAIRS(single_layer, common_vertex, 10);
+CONCHOID_BENCHMARK_PAIRS(single_layer, near, 10);
+CONCHOID_BENCHMARK_PAIRS(double_layer, far, 20);
+CONCHOID_BENCHMARK_PAIRS(double_layer, near, 10);
 
 }  // namespace conchoid::bench

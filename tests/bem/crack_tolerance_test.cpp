@@ -10,7 +10,7 @@
 namespace conchoid {
 namespace {
 
-/// Openings of a disc in a box of this height that is pulled and sheared at its top.
+/// Openings of a disc in a box of this height that is held at one side, pulled and sheared at the other.
 std::vector<Vec3> openings(double height, int layers, const Vec3& center, double tolerance) {
   const TriMesh box = box_mesh({1, 1, height}, 6, 6, layers);
   BoundaryData data = free_surface(box);

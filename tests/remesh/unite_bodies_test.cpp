@@ -23,6 +23,11 @@ std::size_t parts_of(const TriMesh& mesh) {
   return surface_parts(mesh).size();
 }
 
+// Of a chip; cut by each other they are two bodies as before, that meet as before.
+TriMesh splinters() {
+  return read_mesh(std::filesystem::path(CONCHOID_SOURCE_DIR) / "tests/data/slivers_that_meet.off");
+}
+
 TEST(UniteBodies, MakesOneOfTwoThatPassThroughEachOther) {
   TriMesh mesh = join({cube_at({0, 0, 0}), cube_at({0.4, 0.3, 0.2})});
   EXPECT_EQ(unite_bodies(mesh), 1u);
@@ -30,19 +35,15 @@ TEST(UniteBodies, MakesOneOfTwoThatPassThroughEachOther) {
   EXPECT_NEAR(enclosed_volume(mesh), 2 - 0.6 * 0.7 * 0.8, 1e-9);
 }
 
-// Splinters of a chip; cut by each other they are two bodies as before, that meet as before.
 TEST(UniteBodies, LeavesTwoThatStayTwo) {
-  const TriMesh slivers =
-      read_mesh(std::filesystem::path(CONCHOID_SOURCE_DIR) / "tests/data/slivers_that_meet.off");
+  const TriMesh slivers = splinters();
   TriMesh mesh = slivers;
   EXPECT_EQ(unite_bodies(mesh), 0u);
   EXPECT_EQ(mesh.triangle_count(), slivers.triangle_count());
 }
 
 TEST(UniteBodies, UnitesTheOthersWhereTwoCannotBe) {
-  TriMesh slivers =
-      read_mesh(std::filesystem::path(CONCHOID_SOURCE_DIR) / "tests/data/slivers_that_meet.off");
-  TriMesh mesh = join({slivers, cube_at({5, 0, 0}), cube_at({5.4, 0.3, 0.2})});
+  TriMesh mesh = join({splinters(), cube_at({5, 0, 0}), cube_at({5.4, 0.3, 0.2})});
   EXPECT_EQ(unite_bodies(mesh), 1u);
   EXPECT_EQ(parts_of(mesh), 3u);
 }

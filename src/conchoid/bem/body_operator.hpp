@@ -17,7 +17,7 @@ class QuadraticBody;
 
 struct BemSettings {
   /// Wanted relative error of the integrals of a pair of the body's triangles, 1e-3 … 1e-11; of pairs with a crack's triangle
-  /// crack_tolerance() of it.
+  /// crack_tolerance() of it, but for those of a crack with quadratic elements.
   double quadrature_tolerance = 1e-6;
   bool contact = true;           ///< crack faces do not interpenetrate (they slide without friction)
   std::string solver = "dense";  ///< one of body_solver_names()

@@ -38,8 +38,8 @@ class FrontSurroundings {
     FrontFrame frame;
     Mat3 stress = Mat3::Zero();  // in the frame [Pa]
     Vec3 taken = Vec3::Zero();   // over from the crack, in the frame [Pa]
-    Vec3 force = Vec3::Zero(),
-         moment = Vec3::Zero();  // on the crack, the moment about the point; in the frame
+    Vec3 force = Vec3::Zero();   // on the crack, in the frame [N]
+    Vec3 moment = Vec3::Zero();  // its moment about the point, likewise [N m]
     double arms = 0;             // K of the crack's sides as beams
     std::array<double, kSides> beside{};
     double ahead = 0, wall = 0, curvature = 0;

@@ -10,8 +10,8 @@
 namespace conchoid {
 namespace {
 
-constexpr double kLeastInertia =
-    1e-3;  // × trace: a ligament that is all but a line does not turn without end
+// × trace: a ligament that is all but a line does not turn without end.
+constexpr double kLeastInertia = 1e-3;
 
 // ∫ dA, ∫ y dA, ∫ y yᵀ dA.
 struct Moments {

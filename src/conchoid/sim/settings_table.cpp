@@ -390,8 +390,7 @@ const std::vector<Setting>& settings() {
        {"auto", "linear", "quadratic"}},
       {"run", "quadrature_tolerance", number, "", "1e-6",
        "relative error of the integrals over pairs of the body's triangles, a hundred times that (1e-3 at "
-       "most) with cracks: "
-       "K needs 1e-3, walls that bend need 1e-6",
+       "most) with cracks: K needs 1e-3, walls that bend need 1e-6",
        between(1e-11, 1e-3)},
       {"run",
        "rayleigh",
