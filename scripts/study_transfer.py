@@ -7,7 +7,8 @@ WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) an
 another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
 of the scene, and hybrid; and once more under 2.5 times the load. The study `own` is of bodies by databases of nothing else, under loads that these have not
-seen; WORK then needs plate.forest, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body.
+seen; WORK then needs plate.forest, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body. `worst` draws the
+runs of whole-runs that the forest without the class is farthest off on, into WORK/worst.
 """
 import argparse
 import json
@@ -21,7 +22,8 @@ WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "pol
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
 MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
           "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
-STUDIES = ["whole-runs", "load", "noise", "own"]
+STUDIES = ["whole-runs", "load", "noise", "own", "worst"]
+WORST = 10
 # Bodies by their own databases: its name, what differs from its specification, the first run that it has not seen (of the plate the
 # seed stays: another would be another plate).
 OWN = {"cube": ("cube", {}, 0), "cylinder": ("cylinder", {}, 0), "bar": ("bar", {}, 0),
@@ -173,6 +175,20 @@ def own_table(results):
     print(flush=True)
 
 
+def draw_worst(program, work, results, role, files):
+    """Pictures of the runs of all classes together that a regressor is farthest off on, solved beside predicted, and a list of them."""
+    rows = [(r, name) for name, result in results for r in result["runs"] if role_of(r["method"], name) == role]
+    rows.sort(key=lambda row: -row[0]["surface_mean"])
+    print(f"| class | run | off, % | {role}: frames, stop | solved: frames, stop |\n|---|---|---|---|---|")
+    for r, name in rows[:WORST]:
+        spec = next(work.glob(f"whole-runs-{name.replace(' ', '-')}-*.toml"))
+        call(program, "forest", "evaluate", next(f for f in files(name) if f.name == r["method"]), "--runs", spec, "--first", r["run"],
+             "--count", 1, "--pictures", work / "worst" / name.replace(" ", "-"))
+        solved, made = r["frames"]
+        print(f"| {name} | {r['run']} | {100 * r['surface_mean']:.1f} | {made}, {r['stop']} | {solved}, {r['solved_stop']} |", flush=True)
+    print(flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -195,6 +211,9 @@ def main():
     if "whole-runs" in studies:
         print("Whole runs\n")
         table(run("whole-runs", a.runs, files), closed + learned)
+    if "worst" in studies:
+        print("The farthest off\n")
+        draw_worst(a.program, a.work, run("whole-runs", a.runs, files), "left out forest", files)
     if "own" in studies:
         print("By their own databases, loads not seen\n")
         chosen = [n for n in a.only.split(",") if n in OWN] if a.only else OWN

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/io/picture.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/learn/shipped.hpp"
@@ -27,6 +29,8 @@ struct EvaluateOptions {
   int first = 0, count = 0;  ///< 0: all
   WholeRunSettings whole;
   std::vector<double> tolerances;
+  std::string pictures;  ///< folder
+  int worst = 10;
 };
 
 void one_step(const EvaluateOptions& options, const Regressor& model, bool json) {
@@ -80,6 +84,33 @@ std::string whole_runs_json(const WholeRuns& runs) {
   return json.dump();
 }
 
+/// The runs that a method is farthest off on: the solved crack surface beside the method's, in one picture each.
+void draw_worst(const EvaluateOptions& options, const DatabaseSpec& spec, const RunMethod& method,
+                const WholeRuns& runs) {
+  std::filesystem::create_directories(options.pictures);
+  PictureSettings settings;
+  settings.width = 840;
+  settings.height = 420;
+  for (const WholeRun& row : farthest_off(runs, method.title, static_cast<std::size_t>(options.worst))) {
+    const CrackSurfaces surfaces = crack_surfaces(spec, row, method, options.whole);
+    const auto panel = [&](const TriMesh& crack, const std::string& title, const std::string& caption) {
+      PicturePanel out;
+      out.meshes = crack_in_body(surfaces.body, crack);
+      out.title = title;
+      out.caption = caption;
+      return out;
+    };
+    write_picture(
+        std::filesystem::path(options.pictures) / fmt::format("{}-{}.png", row.body_class, row.run),
+        {panel(surfaces.solved, "Solved",
+               fmt::format("{} {}: {}, {} frames", row.body_class, row.run, name(row.solved_stop),
+                           row.solved_frames)),
+         panel(surfaces.made, method.title,
+               fmt::format("{:.1f} % off: {}, {} frames", 100 * row.surface, name(row.stop), row.frames))},
+        settings);
+  }
+}
+
 void runs_of_specification(const EvaluateOptions& options, const Regressor& model, bool json) {
   const DatabaseSpec spec = read_database_spec(options.specification);
   std::vector<std::unique_ptr<Regressor>> others;
@@ -90,7 +121,8 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
     for (const double tolerance : options.tolerances)
       methods.push_back({fmt::format("{}, hybrid {}", title, tolerance), "hybrid", &regressor, tolerance});
   };
-  for (const char* closed_form : {"steady", "kept", "stress"})
+  constexpr std::array closed_forms = {"steady", "kept", "stress"};
+  for (const char* closed_form : closed_forms)
     methods.push_back({closed_form, closed_form, nullptr});
   add(options.file, model);
   for (const std::string& file : options.beside) {
@@ -104,6 +136,7 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
   std::vector<std::int32_t> runs(static_cast<std::size_t>(count));
   std::iota(runs.begin(), runs.end(), options.first);
   const WholeRuns result = whole_runs(spec, runs, methods, options.whole);
+  if (!options.pictures.empty()) draw_worst(options, spec, methods[closed_forms.size()], result);
   print(json ? whole_runs_json(result) : whole_runs_text(result));
 }
 
@@ -168,6 +201,13 @@ void add_forest_evaluate(CLI::App& group, Invocation& invocation) {
   command->add_option("--load", options->whole.load, "with --runs: times the load of the specification")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  CLI::Option* pictures = command->add_option(
+      "--pictures", options->pictures,
+      "with --runs: folder for pictures of the runs that FILE is farthest off on, solved beside predicted");
+  command->add_option("--worst", options->worst, "so many pictures")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str()
+      ->needs(pictures);
   command->add_option("--first", options->first, "first run of the specification")
       ->check(CLI::Range(0, 10000000))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "conchoid/study/small_changes.hpp"
+#include "conchoid/study/surface_distance.hpp"
 
 namespace conchoid {
 namespace {
@@ -96,6 +97,23 @@ TEST(WholeRuns, TheNoiseFloorIsWhatSmallChangesMove) {
       EXPECT_LT(score.at({"", change.title}).median, 0.5 * closed_form) << change.title;
     }
   }
+}
+
+// What is drawn is what was measured.
+TEST(WholeRuns, TheFarthestOffAreMadeAgainToBeLookedAt) {
+  const std::array<std::int32_t, 3> runs = {0, 1, 2};
+  const RunMethod steady{"steady", "steady", nullptr};
+  const WholeRuns result =
+      whole_runs(cubes(), runs, {{"kept", "kept", nullptr}, steady}, {.least_frames = 2});
+  const std::vector<WholeRun> rows = farthest_off(result, "steady", 2);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_GT(rows[0].surface, rows[1].surface);
+  for (const WholeRun& row : result.rows)
+    EXPECT_TRUE(row.title == "kept" || row.surface <= rows[0].surface);
+  const CrackSurfaces made = crack_surfaces(cubes(), rows[0], steady);
+  EXPECT_EQ(symmetric_distance(made.solved, made.made).mean / bounding_box(made.body).diagonal(),
+            rows[0].surface);
+  EXPECT_TRUE(farthest_off(result, "stress", 2).empty());
 }
 
 TEST(SmallChanges, ALoadIsTurnedByHalfADegreeAndStaysAsLarge) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
@@ -54,6 +55,15 @@ Outcome outcome_of(const PreparedRun& run, const RunMethod& how, int frames) {
   return out;
 }
 
+Outcome solved_outcome(const DatabaseSpec& spec, const PreparedRun& run) {
+  return outcome_of(run, {"BEM", "bem", nullptr}, spec.exclusion.frame_limit);
+}
+
+/// How many frames a method has for what takes so many solved ones.
+int frames_beside(int solved) {
+  return 2 * solved + 4;
+}
+
 double apart(const TriMesh& a, const TriMesh& b, double diagonal) {
   const double mean = symmetric_distance(a, b).mean / diagonal;
   return std::isfinite(mean) ? mean : 1;
@@ -67,12 +77,12 @@ std::vector<WholeRun> compared(const DatabaseSpec& spec, const std::shared_ptr<c
   try {
     const PreparedRun run = with_load(prepare_run(spec, body, number), settings.load);
     const RunMethod bem{"BEM", "bem", nullptr};
-    const Outcome solved = outcome_of(run, bem, spec.exclusion.frame_limit);
+    const Outcome solved = solved_outcome(spec, run);
     if (solved.frames < settings.least_frames || solved.stop == StopReason::frame_limit) return {};
     const double diagonal = bounding_box(run.body->surface).diagonal();
     const auto compare = [&](const std::string& title, const PreparedRun& made_of, const RunMethod& method) {
       throw_if_interrupted();
-      const Outcome made = outcome_of(made_of, method, 2 * solved.frames + 4);
+      const Outcome made = outcome_of(made_of, method, frames_beside(solved.frames));
       const double distance = apart(solved.crack, made.crack, diagonal);
       rows.push_back({number, run.record.body_class, title, made.stop, solved.stop, made.frames,
                       solved.frames, distance, distance * diagonal / bounding_box(solved.crack).diagonal(),
@@ -92,6 +102,11 @@ std::vector<WholeRun> compared(const DatabaseSpec& spec, const std::shared_ptr<c
   return rows;
 }
 
+/// None in a world, where each run has its own.
+std::shared_ptr<const PreparedBody> shared_body(const DatabaseSpec& spec) {
+  return spec.world ? nullptr : std::make_shared<const PreparedBody>(prepare(spec.scene));
+}
+
 double quantile(std::vector<double> values, double level) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(std::ceil(level * static_cast<double>(values.size() - 1)))];
@@ -101,7 +116,7 @@ double quantile(std::vector<double> values, double level) {
 
 WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
                      const std::vector<RunMethod>& methods, const WholeRunSettings& settings) {
-  const auto body = spec.world ? nullptr : std::make_shared<const PreparedBody>(prepare(spec.scene));
+  const auto body = shared_body(spec);
   std::vector<std::vector<WholeRun>> of_run(runs.size());
   Progress progress("runs", runs.size());
   parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
@@ -115,6 +130,23 @@ WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> run
     out.left_out += rows.empty() ? 1 : 0;
   }
   return out;
+}
+
+CrackSurfaces crack_surfaces(const DatabaseSpec& spec, const WholeRun& row, const RunMethod& method,
+                             const WholeRunSettings& settings) {
+  const PreparedRun run = with_load(prepare_run(spec, shared_body(spec), row.run), settings.load);
+  return {run.body->surface, solved_outcome(spec, run).crack,
+          outcome_of(run, method, frames_beside(row.solved_frames)).crack};
+}
+
+std::vector<WholeRun> farthest_off(const WholeRuns& runs, const std::string& title, std::size_t count) {
+  std::vector<WholeRun> rows;
+  std::copy_if(runs.rows.begin(), runs.rows.end(), std::back_inserter(rows),
+               [&](const WholeRun& row) { return row.title == title; });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const WholeRun& a, const WholeRun& b) { return a.surface > b.surface; });
+  rows.resize(std::min(rows.size(), count));
+  return rows;
 }
 
 std::map<std::pair<std::string, std::string>, WholeRunScore> scores(const WholeRuns& runs) {

@@ -9,6 +9,7 @@
 
 #include "conchoid/io/outcome.hpp"
 #include "conchoid/learn/regressor.hpp"
+#include "conchoid/mesh/tri_mesh.hpp"
 #include "conchoid/sim/database_spec.hpp"
 
 namespace conchoid {
@@ -48,6 +49,17 @@ struct WholeRunSettings {
 };
 WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
                      const std::vector<RunMethod>& methods, const WholeRunSettings& settings = {});
+
+/// The crack surfaces of a row, made again, to be looked at.
+struct CrackSurfaces {
+  TriMesh body, solved, made;
+};
+/// `method` is that of the row, `settings` those of its table. Throws InputError where the specification has no such run.
+CrackSurfaces crack_surfaces(const DatabaseSpec& spec, const WholeRun& row, const RunMethod& method,
+                             const WholeRunSettings& settings = {});
+
+/// The rows of a method that are farthest off, the farthest first.
+std::vector<WholeRun> farthest_off(const WholeRuns& runs, const std::string& title, std::size_t count);
 
 /// What a method does over the runs of a class.
 struct WholeRunScore {
