@@ -6,11 +6,17 @@ cd "$(dirname "$0")/.."
 conchoid=${1:-build/conchoid}
 work=${2:-build/databases-work}
 mkdir -p "$work"
-for name in cube cylinder bar edge-crack armadillo world; do
+for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cylinder-layers cylinder-grains bar edge-crack armadillo world; do
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
 for name in cube cylinder bar edge-crack armadillo; do
-  "$conchoid" forest train "$work/$name.h5" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
+  runs="$work/$name.h5"
+  for more in tough layers grains; do
+    if [ -e "$work/$name-$more.h5" ]; then runs="$runs $work/$name-$more.h5"; fi
+  done
+  # $runs is several words on purpose
+  "$conchoid" forest train $runs --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
+  "$conchoid" forest train $runs --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "databases/$name.boosted"
 done
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
   --features versatile --trees 12 --depth 18 --leaf 8 --out databases/versatile.forest

@@ -7,7 +7,7 @@ WORK holds world.h5, cube.h5, cylinder.h5, bar.h5 (scripts/make_databases.sh) an
 another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
 of the scene, and hybrid; and once more under 2.5 times the load. The study `own` is of bodies by databases of nothing else, under loads that these have not
-seen; WORK then needs plate.forest, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body. `worst` draws the
+seen, by boosted trees; WORK then needs plate.boosted, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body. `worst` draws the
 runs of whole-runs that the forest without the class is farthest off on, into WORK/worst.
 """
 import argparse
@@ -30,7 +30,9 @@ OWN = {"cube": ("cube", {}, 0), "cylinder": ("cylinder", {}, 0), "bar": ("bar", 
        "edge crack I": ("edge-crack", {"slope": "[0.0, 20.0]"}, 0),
        "edge crack II": ("edge-crack", {"direction": "[1.0, 0.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
        "edge crack III": ("edge-crack", {"direction": "[0.0, 1.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
-       "plate": ("plate", {"seed": "8"}, 240), "armadillo": ("armadillo", {}, 0)}
+       "plate": ("plate", {"seed": "8"}, 960), "armadillo": ("armadillo", {}, 0),
+       "cube, layers": ("cube-layers", {}, 0), "cube, grains": ("cube-grains", {}, 0),
+       "cylinder, layers": ("cylinder-layers", {}, 0), "cylinder, grains": ("cylinder-grains", {}, 0)}
 TOLERANCES = ["0.005", "0.01"]  # of hybrid runs
 LOAD = 2.5
 
@@ -83,12 +85,13 @@ def own_result(program, work, name, runs):
     """As result_of(), by the database of the body alone."""
     database, changes, first = OWN[name]
     text = shipped_specification(database, first + runs, changes)
-    file = (work if database == "plate" else ROOT / "databases") / f"{database}.forest"
+    body = database.removesuffix("-layers").removesuffix("-grains")
+    file = (work if body == "plate" else ROOT / "databases") / f"{body}.boosted"
     return result_of_text(program, work, name, "own", runs, text, [file], "--first", first, "--tolerance", TOLERANCES[-1])
 
 
 def result_of_text(program, work, name, study, runs, text, files, *options):
-    result = work / f"{study}-{name.replace(' ', '-')}-{runs}.json"
+    result = work / f"{study}-{name.replace(',', '').replace(' ', '-')}-{runs}.json"
     spec = result.with_suffix(".toml")
     if not (result.exists() and spec.exists() and spec.read_text() == text):  # another scan is another body
         spec.write_text(text)
@@ -115,7 +118,7 @@ def role_of(method, name):
     title, kind = regressor.rsplit(".", 1) if regressor.endswith(tuple("." + k for k in MODELS)) else (regressor, "")
     if title.startswith("without") or (name == "armadillo" and title == "all"):
         title = "left out"
-    elif title in (name.split()[0], OWN.get(name, [""])[0]):
+    elif title in (name.split()[0].strip(","), OWN.get(name, [""])[0]):
         title = "own"
     return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
 

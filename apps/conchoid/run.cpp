@@ -109,8 +109,9 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   std::unique_ptr<Regressor> regressor;
   std::string database = command.database;
-  if (database.empty()) database = standard_database(opening_method(command.method).regressor);
-  if (!database.empty()) regressor = load_regressor(database_file(database));
+  const std::string_view kind = opening_method(command.method).regressor;
+  if (database.empty()) database = standard_database(kind);
+  if (!database.empty()) regressor = load_regressor(database_file(database, kind));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor, options.tolerance);
   const PreparedRun run = run_of(command);
@@ -157,9 +158,9 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option(
       "--database", options->database,
       fmt::format("for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
-                  "forest train; without it a forest is {}, boosted trees {}",
-                  trained, fmt::join(shipped_names(), ", "), standard_database("forest"),
-                  standard_database("boosted")));
+                  "forest train; a name without a kind is of the kind of the method; without it forest and "
+                  "boosted take {}",
+                  trained, fmt::join(shipped_names(), ", "), standard_database("forest")));
   command
       ->add_option("--tolerance", options->tolerance,
                    "of --method hybrid: error that is to be expected of the crack surface at most, over the "

@@ -32,13 +32,23 @@ std::string known_names() {
 }  // namespace
 
 const std::vector<std::string_view>& shipped_names() {
-  static const std::vector<std::string_view> names = {
-      "cube", "cylinder", "bar", "edge-crack", "armadillo", "versatile", "versatile.boosted"};
+  static const std::vector<std::string_view> names = {"cube",
+                                                      "cylinder",
+                                                      "bar",
+                                                      "edge-crack",
+                                                      "armadillo",
+                                                      "versatile",
+                                                      "cube.boosted",
+                                                      "cylinder.boosted",
+                                                      "bar.boosted",
+                                                      "edge-crack.boosted",
+                                                      "armadillo.boosted",
+                                                      "versatile.boosted"};
   return names;
 }
 
 std::string_view standard_database(std::string_view kind) {
-  return kind == "forest" ? "versatile" : kind == "boosted" ? "versatile.boosted" : "";
+  return kind == "forest" || kind == "boosted" ? "versatile" : "";
 }
 
 fs::path shipped_file(std::string_view name) {
@@ -53,10 +63,11 @@ fs::path shipped_file(std::string_view name) {
                    looked_in + "; install it again, or train one with `conchoid forest train`");
 }
 
-fs::path database_file(const std::string& name_or_file) {
+fs::path database_file(const std::string& name_or_file, std::string_view kind) {
   if (fs::exists(name_or_file)) return name_or_file;
   const auto& names = shipped_names();
-  if (std::find(names.begin(), names.end(), name_or_file) != names.end()) return shipped_file(name_or_file);
+  for (const std::string& name : {name_or_file + "." + std::string(kind), name_or_file})
+    if (std::find(names.begin(), names.end(), name) != names.end()) return shipped_file(name);
   throw InputError(name_or_file + ": is no file, and no database that comes with conchoid; those are " +
                    known_names() + "; another is a file written by `conchoid forest train`");
 }

@@ -8,10 +8,9 @@
 namespace conchoid {
 
 /// Regressors that come with the program, by name, each a file in the folder databases/, NAME.forest where the name tells
-/// no kind:
+/// no kind; NAME.boosted are boosted trees of the same samples:
 ///   cube, cylinder, bar, edge-crack, armadillo   of one body each, under random loads
-///   versatile            of many classes of bodies: for any scene
-///   versatile.boosted    the same as boosted trees: for bodies unlike all of these
+///   versatile                                    of many classes of bodies: for any scene
 /// How they were made: databases/README.md, scripts/make_databases.sh.
 const std::vector<std::string_view>& shipped_names();
 
@@ -23,6 +22,7 @@ std::string_view standard_database(std::string_view kind);
 std::filesystem::path shipped_file(std::string_view name);
 
 /// What a user names: one of the shipped ones, or a file. Throws InputError that lists the names where it is neither.
-std::filesystem::path database_file(const std::string& name_or_file);
+/// @param kind  of regressor that a method needs, for a name that tells none; empty: forest
+std::filesystem::path database_file(const std::string& name_or_file, std::string_view kind = "");
 
 }  // namespace conchoid
