@@ -31,8 +31,8 @@ OWN = {"cube": ("cube", {}, 0), "cylinder": ("cylinder", {}, 0), "bar": ("bar", 
        "edge crack II": ("edge-crack", {"direction": "[1.0, 0.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
        "edge crack III": ("edge-crack", {"direction": "[0.0, 1.0, 0.0]", "slope": "[0.0, 20.0]"}, 0),
        "plate": ("plate", {"seed": "8"}, 960), "armadillo": ("armadillo", {}, 0),
-       "cube, layers": ("cube-layers", {}, 0), "cube, grains": ("cube-grains", {}, 0),
-       "cylinder, layers": ("cylinder-layers", {}, 0), "cylinder, grains": ("cylinder-grains", {}, 0)}
+       "cube layers": ("cube-layers", {}, 0), "cube grains": ("cube-grains", {}, 0),
+       "cylinder layers": ("cylinder-layers", {}, 0), "cylinder grains": ("cylinder-grains", {}, 0)}
 TOLERANCES = ["0.005", "0.01"]  # of hybrid runs
 LOAD = 2.5
 
@@ -91,7 +91,7 @@ def own_result(program, work, name, runs):
 
 
 def result_of_text(program, work, name, study, runs, text, files, *options):
-    result = work / f"{study}-{name.replace(',', '').replace(' ', '-')}-{runs}.json"
+    result = work / f"{study}-{name.replace(' ', '-')}-{runs}.json"
     spec = result.with_suffix(".toml")
     if not (result.exists() and spec.exists() and spec.read_text() == text):  # another scan is another body
         spec.write_text(text)
@@ -118,7 +118,7 @@ def role_of(method, name):
     title, kind = regressor.rsplit(".", 1) if regressor.endswith(tuple("." + k for k in MODELS)) else (regressor, "")
     if title.startswith("without") or (name == "armadillo" and title == "all"):
         title = "left out"
-    elif title in (name.split()[0].strip(","), OWN.get(name, [""])[0]):
+    elif title in (name.split()[0], OWN.get(name, [""])[0]):
         title = "own"
     return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
 
