@@ -140,6 +140,16 @@ TEST(VersatileFeatures, TheLabelGivesBackWhatDrives) {
   }
 }
 
+// K_III of a crack that is torn is most of what drives it, for some frames. K_II is cut off where it is mostly error.
+TEST(VersatileFeatures, ATearIsLearnedAndShearOnlyUpToAHalf) {
+  Sample s = random_sample(5);
+  s.driving_after = {4e6, 1e6, 4.5e6};
+  const Vec3 torn = driving_from_label(s, kSet, label(s, kSet)).value();
+  EXPECT_NEAR((torn - s.driving_after).norm(), 0, 1e-8 * torn.norm());
+  s.driving_after = {4e6, 9e6, 1e6};
+  EXPECT_NEAR(label(s, kSet)[1], 0.5, 1e-12);
+}
+
 TEST(VersatileFeatures, NothingLearnedIsStraightOnWithAllOfK) {
   const Sample s = random_sample(3);
   const double nu = s.poisson_ratio;
