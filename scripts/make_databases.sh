@@ -10,13 +10,12 @@ for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cyli
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
 for name in cube cylinder bar edge-crack armadillo; do
-  runs="$work/$name.h5"
+  set -- "$work/$name.h5"
   for more in tough layers grains; do
-    if [ -e "$work/$name-$more.h5" ]; then runs="$runs $work/$name-$more.h5"; fi
+    if [ -e "databases/$name-$more.toml" ]; then set -- "$@" "$work/$name-$more.h5"; fi
   done
-  # $runs is several words on purpose
-  "$conchoid" forest train $runs --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
-  "$conchoid" forest train $runs --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "databases/$name.boosted"
+  "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
+  "$conchoid" forest train "$@" --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "databases/$name.boosted"
 done
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
   --features versatile --trees 12 --depth 18 --leaf 8 --out databases/versatile.forest

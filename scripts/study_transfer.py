@@ -90,9 +90,13 @@ def own_result(program, work, name, runs):
     return result_of_text(program, work, name, "own", runs, text, [file], "--first", first, "--tolerance", TOLERANCES[-1])
 
 
+def specification_file(work, name, study, runs):
+    return work / f"{study}-{name.replace(' ', '-')}-{runs}.toml"
+
+
 def result_of_text(program, work, name, study, runs, text, files, *options):
-    result = work / f"{study}-{name.replace(' ', '-')}-{runs}.json"
-    spec = result.with_suffix(".toml")
+    spec = specification_file(work, name, study, runs)
+    result = spec.with_suffix(".json")
     if not (result.exists() and spec.exists() and spec.read_text() == text):  # another scan is another body
         spec.write_text(text)
         result.unlink(missing_ok=True)
@@ -178,13 +182,13 @@ def own_table(results):
     print(flush=True)
 
 
-def draw_worst(program, work, results, role, files):
+def draw_worst(program, work, runs, results, role, files):
     """Pictures of the runs of all classes together that a regressor is farthest off on, solved beside predicted, and a list of them."""
     rows = [(r, name) for name, result in results for r in result["runs"] if role_of(r["method"], name) == role]
     rows.sort(key=lambda row: -row[0]["surface_mean"])
     print(f"| class | run | off, % | {role}: frames, stop | solved: frames, stop |\n|---|---|---|---|---|")
     for r, name in rows[:WORST]:
-        spec = next(work.glob(f"whole-runs-{name.replace(' ', '-')}-*.toml"))
+        spec = specification_file(work, name, "whole-runs", runs)
         call(program, "forest", "evaluate", next(f for f in files(name) if f.name == r["method"]), "--runs", spec, "--first", r["run"],
              "--count", 1, "--pictures", work / "worst" / name.replace(" ", "-"))
         solved, made = r["frames"]
@@ -216,7 +220,7 @@ def main():
         table(run("whole-runs", a.runs, files), closed + learned)
     if "worst" in studies:
         print("The farthest off\n")
-        draw_worst(a.program, a.work, run("whole-runs", a.runs, files), "left out forest", files)
+        draw_worst(a.program, a.work, a.runs, run("whole-runs", a.runs, files), "left out forest", files)
     if "own" in studies:
         print("By their own databases, loads not seen\n")
         chosen = [n for n in a.only.split(",") if n in OWN] if a.only else OWN

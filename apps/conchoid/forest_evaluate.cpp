@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/make_folder.hpp"
 #include "conchoid/io/picture.hpp"
 #include "conchoid/learn/database.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
@@ -87,12 +88,15 @@ std::string whole_runs_json(const WholeRuns& runs) {
 /// The runs that a method is farthest off on: the solved crack surface beside the method's, in one picture each.
 void draw_worst(const EvaluateOptions& options, const DatabaseSpec& spec, const RunMethod& method,
                 const WholeRuns& runs) {
-  std::filesystem::create_directories(options.pictures);
   PictureSettings settings;
   settings.width = 840;
   settings.height = 420;
-  for (const WholeRun& row : farthest_off(runs, method.title, static_cast<std::size_t>(options.worst))) {
-    const CrackSurfaces surfaces = crack_surfaces(spec, row, method, options.whole);
+  const std::vector<WholeRun> rows =
+      farthest_off(runs, method.title, static_cast<std::size_t>(options.worst));
+  const std::vector<CrackSurfaces> all = crack_surfaces(spec, rows, method, options.whole);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const WholeRun& row = rows[i];
+    const CrackSurfaces& surfaces = all[i];
     const auto panel = [&](const TriMesh& crack, const std::string& title, const std::string& caption) {
       PicturePanel out;
       out.meshes = crack_in_body(surfaces.body, crack);
@@ -135,9 +139,10 @@ void runs_of_specification(const EvaluateOptions& options, const Regressor& mode
                                  options.specification, spec.runs - 1));
   std::vector<std::int32_t> runs(static_cast<std::size_t>(count));
   std::iota(runs.begin(), runs.end(), options.first);
+  if (!options.pictures.empty()) make_folder(options.pictures, "--pictures");  // before the runs
   const WholeRuns result = whole_runs(spec, runs, methods, options.whole);
-  if (!options.pictures.empty()) draw_worst(options, spec, methods[closed_forms.size()], result);
   print(json ? whole_runs_json(result) : whole_runs_text(result));
+  if (!options.pictures.empty()) draw_worst(options, spec, methods[closed_forms.size()], result);
 }
 
 }  // namespace

@@ -132,11 +132,17 @@ WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> run
   return out;
 }
 
-CrackSurfaces crack_surfaces(const DatabaseSpec& spec, const WholeRun& row, const RunMethod& method,
-                             const WholeRunSettings& settings) {
-  const PreparedRun run = with_load(prepare_run(spec, shared_body(spec), row.run), settings.load);
-  return {run.body->surface, solved_outcome(spec, run).crack,
-          outcome_of(run, method, frames_beside(row.solved_frames)).crack};
+std::vector<CrackSurfaces> crack_surfaces(const DatabaseSpec& spec, std::span<const WholeRun> rows,
+                                          const RunMethod& method, const WholeRunSettings& settings) {
+  const auto body = shared_body(spec);
+  std::vector<CrackSurfaces> out(rows.size());
+  parallel_for(rows.size(), 1, [&](std::size_t i, std::size_t) {
+    throw_if_interrupted();
+    const PreparedRun run = with_load(prepare_run(spec, body, rows[i].run), settings.load);
+    out[i] = {run.body->surface, solved_outcome(spec, run).crack,
+              outcome_of(run, method, frames_beside(rows[i].solved_frames)).crack};
+  });
+  return out;
 }
 
 std::vector<WholeRun> farthest_off(const WholeRuns& runs, const std::string& title, std::size_t count) {

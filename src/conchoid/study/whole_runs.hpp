@@ -54,9 +54,10 @@ WholeRuns whole_runs(const DatabaseSpec& spec, std::span<const std::int32_t> run
 struct CrackSurfaces {
   TriMesh body, solved, made;
 };
-/// `method` is that of the row, `settings` those of its table. Throws InputError where the specification has no such run.
-CrackSurfaces crack_surfaces(const DatabaseSpec& spec, const WholeRun& row, const RunMethod& method,
-                             const WholeRunSettings& settings = {});
+/// Of rows of one method, in their order; `settings` are those of their table. Runs are made in parallel. Throws InputError
+/// where the specification has no such run.
+std::vector<CrackSurfaces> crack_surfaces(const DatabaseSpec& spec, std::span<const WholeRun> rows,
+                                          const RunMethod& method, const WholeRunSettings& settings = {});
 
 /// The rows of a method that are farthest off, the farthest first.
 std::vector<WholeRun> farthest_off(const WholeRuns& runs, const std::string& title, std::size_t count);

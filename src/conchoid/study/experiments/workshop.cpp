@@ -10,6 +10,7 @@
 #include "conchoid/core/byte_cache.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/make_folder.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/learn/database_provenance.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
@@ -20,13 +21,6 @@ namespace conchoid {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw InputError(fmt::format("{}: the folder cannot be made; name another with --out", folder.string()));
-}
 
 // Seconds of a training, beside its forest.
 void write_seconds(const fs::path& file, double seconds) {
@@ -73,7 +67,7 @@ std::string_view name(StudyScale scale) {
 Workshop::Workshop(fs::path folder, StudyScale scale, fs::path armadillo)
     : folder_(std::move(folder)), armadillo_(std::move(armadillo)), scale_(scale) {
   for (const char* part : {"cache", "figures", "tables"})
-    make_folder(folder_ / part);
+    make_folder(folder_ / part, "--out");
   prepared_ = std::make_shared<const ByteCache>(folder_ / "cache" / "prepared");
 }
 
