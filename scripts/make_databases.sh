@@ -9,15 +9,33 @@ mkdir -p "$work"
 for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cylinder-layers cylinder-grains bar edge-crack armadillo world; do
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
+
+# Runs that none has seen, to find by what the spread of each is worth: NAME RUNS
+unseen() {
+  sed -e "s/^runs = .*/runs = $2/" -e 's/^seed = .*/seed = 99/' -e "s|^mesh = \"|&$PWD/databases/|" "databases/$1.toml" > "$work/$1-unseen.toml"
+  "$conchoid" database generate "$work/$1-unseen.toml" --out "$work/$1-unseen.h5" --resume
+}
+for name in cube cylinder bar edge-crack; do unseen "$name" 60; done
+unseen armadillo 24
+unseen world 150
+
 for name in cube cylinder bar edge-crack armadillo; do
   set -- "$work/$name.h5"
   for more in tough layers grains; do
     if [ -e "databases/$name-$more.toml" ]; then set -- "$@" "$work/$name-$more.h5"; fi
   done
-  "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "databases/$name.forest"
-  "$conchoid" forest train "$@" --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "databases/$name.boosted"
+  "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "$work/$name.forest"
+  "$conchoid" forest train "$@" --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "$work/$name.boosted"
 done
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --trees 12 --depth 18 --leaf 8 --out databases/versatile.forest
+  --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out databases/versatile.boosted
+  --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
+
+for name in cube cylinder bar edge-crack armadillo versatile; do
+  unseen=$work/$name-unseen.h5
+  if [ $name = versatile ]; then unseen=$work/world-unseen.h5; fi
+  for kind in forest boosted; do
+    "$conchoid" forest calibrate "$work/$name.$kind" "$unseen" --out "databases/$name.$kind"
+  done
+done

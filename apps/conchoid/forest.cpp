@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -47,11 +48,26 @@ void require_classes(const std::vector<Database>& databases, const std::set<std:
                                    name, fmt::join(known, ", ")));
 }
 
+// By mode what was stated and what was found: "I 0.013 → 0.038, …".
+std::string calibration_text(const Regressor& regressor) {
+  std::string text;
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    std::vector<std::string> knots;
+    for (const SpreadCalibration::Knot& knot : regressor.record().calibration[mode].knots())
+      knots.push_back(fmt::format("{:.3g} → {:.3g}", knot.stated, knot.found));
+    text += fmt::format("\n  {:<3} {}", std::array{"I", "II", "III"}[mode], fmt::join(knots, ", "));
+  }
+  return text;
+}
+
 std::string regressor_text(const Regressor& regressor) {
   const Provenance& p = regressor.provenance();
   std::string text = fmt::format("model       {}\nfeatures    {}\n{}\ntrained on  {} samples of {} runs ({})",
                                  regressor_kind(regressor.name()).title, name(regressor.feature_set()),
                                  regressor.summary(), p.samples, p.runs, fmt::join(p.models, ", "));
+  text += regressor.calibrated()
+              ? "\nspread, stated → found on runs that it has not seen" + calibration_text(regressor)
+              : "\nspread      as stated (not calibrated)";
   const std::vector<std::string> names = feature_names(regressor.feature_set());
   for (std::size_t i = 0; i < names.size(); ++i)
     text += fmt::format("\n  {:<28} {:12.4e} … {:12.4e}", names[i], regressor.ranges()[i].minimum,
@@ -59,16 +75,21 @@ std::string regressor_text(const Regressor& regressor) {
   return text;
 }
 
+std::vector<Database> read_databases(const std::vector<std::string>& files, std::string_view use) {
+  std::vector<Database> databases;
+  for (const std::string& file : files) {
+    databases.push_back(read_database(file));
+    if (!databases.back().complete())
+      warning(fmt::format("{}: some planned runs are missing; the {} goes by what is there", file, use));
+  }
+  return databases;
+}
+
 void train(ForestOptions options, const CommonOptions& common) {
   options.settings.features = feature_set_from_name(options.features);
   for (const auto& [name, option] : options.given)
     if (option->count() > 0) options.settings.options[name] = options.numbers[name];
-  std::vector<Database> databases;
-  for (const std::string& file : options.samples) {
-    databases.push_back(read_database(file));
-    if (!databases.back().complete())
-      warning(file + ": some planned runs are missing; the training goes by what is there");
-  }
+  const std::vector<Database> databases = read_databases(options.samples, "training");
   options.choice.end_game = learns_end_game(options.settings.features);
   for (const auto* classes : {&options.choice.only, &options.choice.without})
     require_classes(databases, *classes);
@@ -93,6 +114,17 @@ void train(ForestOptions options, const CommonOptions& common) {
   ordered_json json = ordered_json::parse(json_text(*model));
   json["held_out"] = ordered_json::parse(json_text(held_out));
   print(json.dump());
+}
+
+void calibrate(ForestOptions options, const CommonOptions& common) {
+  const std::unique_ptr<Regressor> model = load_regressor(database_file(options.file));
+  const std::vector<Database> databases = read_databases(options.samples, "calibration");
+  options.choice.end_game = learns_end_game(model->feature_set());
+  for (const auto* classes : {&options.choice.only, &options.choice.without})
+    require_classes(databases, *classes);
+  model->calibrate(join_samples(databases, options.choice).samples);
+  model->save(options.out);
+  print(common.json ? json_text(*model) : regressor_text(*model));
 }
 
 /// Numbers that kinds of regressors can be given; one that several kinds know stands once, and each kind looks at its own
@@ -122,6 +154,15 @@ void add_training_options(CLI::App& command, ForestOptions& options) {
             ->type_name(k.whole ? "INT" : "FLOAT");
 }
 
+void add_class_choice(CLI::App& command, ForestOptions& options) {
+  command
+      .add_option("--only", options.choice.only,
+                  "classes of bodies to go by, with commas between; without it all")
+      ->delimiter(',');
+  command.add_option("--without", options.choice.without, "classes of bodies to leave out, likewise")
+      ->delimiter(',');
+}
+
 void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<ForestOptions>& options) {
   CLI::App* command = add_command(group, invocation, "train", "Train a regressor for all three modes",
                                   [options, &invocation] { train(*options, invocation.common); });
@@ -147,12 +188,20 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
       ->add_option("--hold-out", options->hold_out, "share of the runs kept from training and evaluated on")
       ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str();
-  command
-      ->add_option("--only", options->choice.only,
-                   "classes of bodies to learn from, with commas between; without it all")
-      ->delimiter(',');
-  command->add_option("--without", options->choice.without, "classes of bodies to hold out, likewise")
-      ->delimiter(',');
+  add_class_choice(*command, *options);
+}
+
+void add_calibrate(CLI::App& group, Invocation& invocation, const std::shared_ptr<ForestOptions>& options) {
+  CLI::App* command =
+      add_command(group, invocation, "calibrate",
+                  "Find what the spread of a regressor is worth, on runs that it has not seen",
+                  [options, &invocation] { calibrate(*options, invocation.common); });
+  add_regressor_argument(*command, options->file);
+  command->add_option("SAMPLES", options->samples, "database files (HDF5) of such runs")
+      ->required()
+      ->expected(1, 1000);
+  command->add_option("--out", options->out, "file to write: the same regressor, calibrated")->required();
+  add_class_choice(*command, *options);
 }
 
 }  // namespace
@@ -162,6 +211,7 @@ void add_forest(CLI::App& program, Invocation& invocation) {
   allow_one_command(*group);
   const auto options = std::make_shared<ForestOptions>();
   add_train(*group, invocation, options);
+  add_calibrate(*group, invocation, options);
   CLI::App* info = add_command(
       *group, invocation, "info", "Settings, provenance and ranges of the training", [options, &invocation] {
         const std::unique_ptr<Regressor> model = load_regressor(database_file(options->file));

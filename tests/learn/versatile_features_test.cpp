@@ -213,5 +213,19 @@ TEST(VersatileFeatures, PureModeOneGoesStraightOn) {
   EXPECT_GT((*p.driving)[0], 0);
 }
 
+// K at the size that it has: linear in what the label says of its direction.
+TEST(VersatileFeatures, SpreadOfKIsThatOfItsDirection) {
+  for (int seed = 0; seed < 10; ++seed) {
+    const Sample s = random_sample(seed);
+    const Vec3 at(0.3, 0.1, -0.2), more(0.5, 0.02, 0.05);
+    const Vec3 spread = versatile_driving_spread(s, at, more);
+    const Vec3 step(0, more[1], more[2]);
+    const Vec3 half = (versatile_driving(s, at + step) - versatile_driving(s, at - step)) / 2;
+    EXPECT_EQ(spread[0], 0);
+    for (const int mode : {1, 2})
+      EXPECT_NEAR(spread[mode], half[mode], 1e-9 * std::abs(half[mode])) << mode;
+  }
+}
+
 }  // namespace
 }  // namespace conchoid

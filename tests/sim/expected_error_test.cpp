@@ -64,7 +64,7 @@ TEST(StatedAngleError, IsNeverNothing) {
 TEST(ExpectedError, GrowsWithTheSquareOfTheFramesPredicted) {
   ExpectedError error(kMaterial, kDiagonal, kEdge);
   const auto predicted = openings(turning(0.01));
-  const double s = ExpectedError::kFirstScale * stated(turning(0.01));
+  const double s = ExpectedError::kUnknown.first_scale * stated(turning(0.01));
   double distance = 0, sum = 0;
   for (int n = 0; n < 4; ++n) {
     const double before = distance;
@@ -74,6 +74,29 @@ TEST(ExpectedError, GrowsWithTheSquareOfTheFramesPredicted) {
     sum += 0.5 * (before + distance) / kDiagonal;
     EXPECT_NEAR(error.of_surface(), sum / (n + 1), 1e-15);
   }
+}
+
+// Independent turns: after n frames the distance has the variance r̄² Σ k² s², k = 1 … n.
+TEST(ExpectedError, ScatterWalks) {
+  ExpectedError error(kMaterial, kDiagonal, kEdge, ExpectedError::kCalibrated);
+  const Vec3 K = turning(0.02), spread(0, 2e4, 0);
+  const double s = ExpectedError::kCalibrated.along_front * stated(K, spread);
+  EXPECT_EQ(error.scale(), 1);
+  double squares = 0;
+  for (int n = 0; n < 6; ++n) {
+    squares += (n + 1) * (n + 1);
+    const double distance = kEdge * s * std::sqrt(squares);
+    EXPECT_NEAR(error.of_next_front(front(n), openings(K, spread)) * kDiagonal / distance, 1, 1e-3) << n;
+    error.advance_predicted(front(n), openings(K, spread));
+  }
+}
+
+// A calibrated statement counts as one comparison.
+TEST(ExpectedError, OneFrameDoesNotUndoACalibration) {
+  const Vec3 K = turning(0.02), spread(0, 1e4, 0);
+  ExpectedError error(kMaterial, kDiagonal, kEdge, ExpectedError::kCalibrated);
+  error.advance_solved(front(0), openings(K), openings(K, spread));  // as predicted
+  EXPECT_NEAR(error.scale(), 1 / std::numbers::sqrt2, 1e-12);
 }
 
 TEST(ExpectedError, APointThatStaysAddsNothingByStaying) {

@@ -183,6 +183,10 @@ std::optional<Vec3> driving_from_label(const Sample& s, FeatureSet set, const Ve
   return versatile_driving(s, label);
 }
 
+Vec3 driving_spread(const Sample& s, FeatureSet set, const Vec3& label, const Vec3& label_spread) {
+  return set == FeatureSet::versatile ? versatile_driving_spread(s, label, label_spread) : Vec3::Zero();
+}
+
 Vec3 label(const Sample& s, FeatureSet set) {
   if (set == FeatureSet::versatile) return versatile_label(s);
   if (is_paper(set)) return s.opening / s.resolution;

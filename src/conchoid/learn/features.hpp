@@ -69,6 +69,8 @@ Vec3 label_image(FeatureSet set, int image, const Vec3& label);
 bool learns_end_game(FeatureSet set);
 /// K that drives the front of frame n, in its own frame [Pa√m], where a label tells that; else none.
 std::optional<Vec3> driving_from_label(const Sample& sample, FeatureSet set, const Vec3& label);
+/// Standard deviation of its K_II and K_III at the size that it has [Pa√m], from that of the label; else zero.
+Vec3 driving_spread(const Sample& sample, FeatureSet set, const Vec3& label, const Vec3& label_spread);
 /// Inverse of label: the opening [m] in the front frame of frame n−1; uses everything of the sample but its
 /// opening.
 Vec3 opening_from_label(const Sample& sample, FeatureSet set, const Vec3& label);

@@ -15,6 +15,8 @@ struct OpeningPrediction {
   bool in_range = true;         ///< false: asked beyond what it was trained on
   /// K that drives the front of frame n, in its own front frame [Pa√m]; none: what belongs to the opening
   std::optional<Vec3> driving = {};
+  /// Standard deviation of K_II and K_III of it at the size that it has [Pa√m]; first component zero
+  Vec3 driving_spread = Vec3::Zero();
 };
 
 /// Predicts openings from what was known in the frame before: a trained regressor, or a closed form.
@@ -25,6 +27,8 @@ class OpeningPredictor {
   virtual std::string_view name() const = 0;
   /// Whether it looks at fields of the samples that have to be measured around the front (sim/front_surroundings.hpp).
   virtual bool looks_around() const { return false; }
+  /// Whether the spread was compared with errors on runs that the predictor had not seen, and is to be taken as it is.
+  virtual bool calibrated() const { return false; }
   /// One prediction per sample. Uses everything of the samples but their opening.
   virtual std::vector<OpeningPrediction> predict_openings(const SampleSet& samples) const = 0;
 };

@@ -56,7 +56,8 @@ std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {
   return result;
 }
 
-std::vector<Prediction> Regressor::predict_labels(const SampleSet& samples) const {
+// With the spread as it comes from the kind of regressor.
+std::vector<Prediction> Regressor::stated_labels(const SampleSet& samples) const {
   const FeatureSet set = record_.features;
   FeatureMatrix rows = feature_matrix(samples, set);
   const int images = image_count(set);
@@ -76,6 +77,33 @@ std::vector<Prediction> Regressor::predict_labels(const SampleSet& samples) cons
   return mean;
 }
 
+std::vector<Prediction> Regressor::predict_labels(const SampleSet& samples) const {
+  std::vector<Prediction> labels = stated_labels(samples);
+  for (Prediction& p : labels)
+    for (int mode = 0; mode < 3; ++mode)
+      p.spread[mode] = record_.calibration[static_cast<std::size_t>(mode)](p.spread[mode]);
+  return labels;
+}
+
+void Regressor::calibrate(const SampleSet& unseen) {
+  if (unseen.hash() == record_.provenance.samples_hash)
+    throw InputError(
+        "these are the samples of the training, which tell nothing of its errors; give runs that it has not "
+        "seen");
+  require_recorded(record_.features, unseen);
+  const std::vector<Prediction> predicted = stated_labels(unseen);
+  std::array<SpreadCalibration, 3> calibration;
+  for (int mode = 0; mode < 3; ++mode) {
+    std::vector<double> stated, errors;
+    for (std::size_t i = 0; i < unseen.size(); ++i) {
+      stated.push_back(predicted[i].spread[mode]);
+      errors.push_back(label(unseen[i], record_.features)[mode] - predicted[i].mean[mode]);
+    }
+    calibration[static_cast<std::size_t>(mode)] = SpreadCalibration::measure(stated, errors);
+  }
+  record_.calibration = std::move(calibration);
+}
+
 std::vector<OpeningPrediction> Regressor::predict_openings(const SampleSet& samples) const {
   const FeatureSet set = record_.features;
   const std::vector<Prediction> labels = predict_labels(samples);
@@ -83,7 +111,8 @@ std::vector<OpeningPrediction> Regressor::predict_openings(const SampleSet& samp
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Sample s = samples[i];
     result[i] = {opening_from_label(s, set, labels[i].mean), opening_spread(s, set, labels[i].spread),
-                 labels[i].in_range, driving_from_label(s, set, labels[i].mean)};
+                 labels[i].in_range, driving_from_label(s, set, labels[i].mean),
+                 driving_spread(s, set, labels[i].mean, labels[i].spread)};
   }
   return result;
 }

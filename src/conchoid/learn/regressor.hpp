@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "conchoid/learn/features.hpp"
 #include "conchoid/learn/material_record.hpp"
 #include "conchoid/learn/opening_predictor.hpp"
+#include "conchoid/learn/spread_calibration.hpp"
 
 namespace conchoid {
 
@@ -49,6 +51,8 @@ struct TrainingRecord {
   std::vector<FeatureRange> ranges;  ///< per feature
   /// Labels are brought to zero mean and unit deviation before training, and back after.
   Vec3 label_mean = Vec3::Zero(), label_scale = Vec3::Ones();
+  std::array<SpreadCalibration, 3>
+      calibration;  ///< of the spread of labels, by runs that are not of the training
 };
 
 /// Label of one row of features.
@@ -75,8 +79,15 @@ class Regressor : public OpeningPredictor {
 
   bool looks_around() const override { return !context_fields(record_.features).empty(); }
   std::vector<OpeningPrediction> predict_openings(const SampleSet& samples) const override;
-  /// Labels of samples: the mean over the images that the feature set has.
+  /// Labels of samples: the mean over the images that the feature set has; the spread as calibrated.
   std::vector<Prediction> predict_labels(const SampleSet& samples) const;
+  /// Replaces the calibration of the spread by one from samples of runs that the training has not seen. Throws InputError if
+  /// they are too few (SpreadCalibration::measure), or the very samples of the training.
+  void calibrate(const SampleSet& unseen);
+  bool calibrated() const override {
+    return std::any_of(record_.calibration.begin(), record_.calibration.end(),
+                       [](const SpreadCalibration& mode) { return !mode.empty(); });
+  }
   /// Throws InputError if the rows are of another feature set or not finite.
   std::vector<Prediction> predict(const FeatureMatrix& rows) const;
   /// @param row  features of the regressor's own set, finite
@@ -116,6 +127,7 @@ class Regressor : public OpeningPredictor {
 
  private:
   std::string file_bytes() const;
+  std::vector<Prediction> stated_labels(const SampleSet& samples) const;
   TrainingRecord record_;
 };
 

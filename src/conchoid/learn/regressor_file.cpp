@@ -63,6 +63,28 @@ Vec3 vec_from(const json& j) {
   return Vec3(j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>());
 }
 
+json to_json(const std::array<SpreadCalibration, 3>& calibration) {
+  json modes = json::array();
+  for (const SpreadCalibration& mode : calibration) {
+    json knots = json::array();
+    for (const SpreadCalibration::Knot& knot : mode.knots())
+      knots.push_back({knot.stated, knot.found});
+    modes.push_back(std::move(knots));
+  }
+  return modes;
+}
+
+std::array<SpreadCalibration, 3> calibration_from(const json& modes) {
+  std::array<SpreadCalibration, 3> calibration;
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    std::vector<SpreadCalibration::Knot> knots;
+    for (const json& knot : modes.at(mode))
+      knots.push_back({knot.at(0), knot.at(1)});
+    calibration[mode] = SpreadCalibration(std::move(knots));
+  }
+  return calibration;
+}
+
 TrainingRecord record_from(const json& d) {
   TrainingRecord record;
   record.features = feature_set_from_name(d.at("features").get<std::string>());
@@ -76,6 +98,7 @@ TrainingRecord record_from(const json& d) {
   record.label_mean = vec_from(d.at("label_mean"));
   record.label_scale = vec_from(d.at("label_scale"));
   record.provenance = provenance_from(d.at("provenance"));
+  if (d.contains("calibration")) record.calibration = calibration_from(d.at("calibration"));
   return record;
 }
 
@@ -123,6 +146,8 @@ std::string regressor_bytes(std::string_view kind_name, const TrainingRecord& re
                       {"label_mean", to_json(record.label_mean)},
                       {"label_scale", to_json(record.label_scale)},
                       {"provenance", to_json(record.provenance)}});
+  if (record.calibration != std::array<SpreadCalibration, 3>{})
+    description["calibration"] = to_json(record.calibration);
   ByteWriter content;
   content.put_text(description.dump(-1, ' ', false, json::error_handler_t::replace));
   content.put_raw(fit);

@@ -143,6 +143,14 @@ std::string json_text(const Regressor& regressor) {
                         {"maximum", regressor.ranges()[i].maximum},
                         {"quantile_levels", FeatureRange::levels},
                         {"quantiles", regressor.ranges()[i].quantiles}});
+  json calibration;  // null: none
+  if (regressor.calibrated())
+    for (const SpreadCalibration& mode : regressor.record().calibration) {
+      json knots = json::array();
+      for (const SpreadCalibration::Knot& knot : mode.knots())
+        knots.push_back({{"stated", knot.stated}, {"found", knot.found}});
+      calibration.push_back(std::move(knots));
+    }
   json j = json::parse(regressor.settings_json());
   j.update(json::parse(regressor.fit_json()));
   j.update({{"model", regressor.name()},
@@ -154,6 +162,7 @@ std::string json_text(const Regressor& regressor) {
             {"runs", p.runs},
             {"samples", p.samples},
             {"samples_hash", hex(p.samples_hash)},
+            {"calibration", calibration},
             {"content_hash", hex(regressor.content_hash())},
             {"spec", p.spec}});
   return text(j);

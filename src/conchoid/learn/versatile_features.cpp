@@ -100,8 +100,18 @@ Vec3 scaled(const Sample& s, const Vec3& K) {
   return {K[0], K[1], K[2] / std::sqrt(1 - s.poisson_ratio)};
 }
 
+// Its inverse.
+Vec3 unscaled(const Sample& s, const Vec3& K) {
+  return {K[0], K[1], K[2] * std::sqrt(1 - s.poisson_ratio)};
+}
+
 double size(const Sample& s, const Vec3& K) {
   return scaled(s, K).norm();
+}
+
+// S′.
+double grown_size(double before, const Vec3& label) {
+  return before * std::exp(std::clamp(label[0], kLeastGrowth, kMostGrowth));
 }
 
 // A vector over a size that may be zero.
@@ -257,8 +267,11 @@ Vec3 versatile_driving(const Sample& s, const Vec3& label) {
   if (!(before > 0)) return Vec3::Zero();
   Vec3 w(0, std::clamp(label[1], -kMostShear, kMostShear), std::clamp(label[2], -kMostTear, kMostTear));
   w[0] = std::sqrt(1 - w[1] * w[1] - w[2] * w[2]);
-  const Vec3 K = before * std::exp(std::clamp(label[0], kLeastGrowth, kMostGrowth)) * w;
-  return {K[0], K[1], K[2] * std::sqrt(1 - s.poisson_ratio)};
+  return unscaled(s, grown_size(before, label) * w);
+}
+
+Vec3 versatile_driving_spread(const Sample& s, const Vec3& label, const Vec3& label_spread) {
+  return unscaled(s, grown_size(size(s, s.driving), label) * Vec3(0, label_spread[1], label_spread[2]));
 }
 
 Vec3 versatile_opening(const Sample& s, const Vec3& driving) {

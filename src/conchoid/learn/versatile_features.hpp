@@ -42,6 +42,8 @@ Vec3 versatile_label(const Sample& sample);
 Vec3 versatile_label_image(int image, const Vec3& label);
 /// K that drives the front of the frame after, in its own frame [Pa√m]: inverse of the label.
 Vec3 versatile_driving(const Sample& sample, const Vec3& label);
+/// Standard deviation of its K_II and K_III at the size that it has [Pa√m], from that of the label.
+Vec3 versatile_driving_spread(const Sample& sample, const Vec3& label, const Vec3& label_spread);
 /// Opening at distance r⁺ that belongs to such a K, in the front frame of the frame before [m].
 Vec3 versatile_opening(const Sample& sample, const Vec3& driving);
 /// Names of the recorded fields that must not be zero everywhere.

@@ -40,15 +40,25 @@ ExpectedError::Deviation ExpectedError::deviation(const FrontPoint& point) const
   return {};
 }
 
+ExpectedError::Deviation ExpectedError::after_error(const Deviation& before, double error) const {
+  const double kept = statement_.persistence * error;
+  Deviation after = before;
+  after.angle = std::sqrt(before.angle * before.angle + 2 * kept * before.angle + error * error);
+  if (before.angle > 0) after.both *= 1 + kept / before.angle;
+  const double across = crack_edge_ * std::sin(std::min(after.angle, std::numbers::pi / 2));
+  const double lever = after.angle > 0 ? across / after.angle : crack_edge_;
+  after.stretch = std::sqrt(before.stretch * before.stretch + 2 * lever * after.both + across * across);
+  after.both += across * after.angle;
+  return after;
+}
+
 std::vector<ExpectedError::Advance> ExpectedError::predicted_advances(
     const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
   std::vector<Advance> advances;
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const Deviation before = deviation(crack.points[i]);
-    Deviation after = before;
-    after.angle += scale_ * stated_angle_error(predicted[i], crack_edge_, m_);
-    after.stretch += crack_edge_ * std::sin(std::min(after.angle, std::numbers::pi / 2));
-    advances.push_back({before, after});
+    const double error = scale_ * statement_.along_front * stated_angle_error(predicted[i], crack_edge_, m_);
+    advances.push_back({before, after_error(before, error)});
   }
   return advances;
 }
@@ -79,7 +89,7 @@ void ExpectedError::advance_solved(const CrackState& crack, const std::vector<Fr
   std::vector<Advance> advances;
   for (const FrontPoint& point : crack.points) {
     const Deviation before = deviation(point);
-    advances.push_back({before, {0, 0, before.distance()}});
+    advances.push_back({before, {0, 0, 0, before.distance()}});
   }
   advance(crack, advances);
 }

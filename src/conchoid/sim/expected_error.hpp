@@ -11,23 +11,45 @@ namespace conchoid {
 /// How far the surface of a predicted crack is expected to lie from the one that boundary elements would make.
 ///
 /// At every front point a prediction states how uncertain its kink angle is, s (stated_angle_error). It is
-/// multiplied by a scale a, which is kFirstScale until a frame of this fracture was solved that had been
+/// multiplied by a scale a, which has a first value until a frame of this fracture was solved that had been
 /// predicted too; then a² is Σ(true error)² / Σs² along the front, averaged over the frames that were compared,
 /// later ones counting more. So a predictor that meets a body or a load unlike its training is found out at the
 /// first comparison, whatever its spread says.
-/// The front advances by up to r̄. With the error θ of its direction and its distances e and D from the solved
-/// front, all carried from a point to the one that grows from it,
-///   θ ← θ + a s,   e ← e + r̄ sin min(θ, π/2)     predicted: errors of one stretch of frames have one sense
-///   θ ← 0,   D ← √(D² + e²),   e ← 0             solved: the crack turns back by what it feels, from where it is;
-///                                                 errors of different stretches know nothing of each other
-/// d = √(D² + e²) is what is expected. A frame's strip of new surface counts with the mean of d before and after,
+/// The front advances by up to r̄. Its direction has the error θ, it lies e off the solved front since a frame was
+/// last solved, and D by what was predicted before; σ_θ² and σ_e² are variances, κ the covariance, all carried from a
+/// point to the one that grows from it. A predicted frame adds an error of deviation a b s to θ, with the correlation c to
+/// the θ that is there:
+///   κ ← κ (1 + c a b s/σ_θ),   σ_θ² ← σ_θ² + 2 c a b s σ_θ + (a b s)²
+///   σ_e² ← σ_e² + 2 g κ + g² σ_θ²,   κ ← κ + g σ_θ²,   with g σ_θ = r̄ sin min(σ_θ, π/2)
+/// A solved frame turns the crack back by what it feels, from where it is: D² ← D² + σ_e², and σ_θ, κ, σ_e are zero.
+/// d = √(D² + σ_e²) is what is expected. A frame's strip of new surface counts with the mean of d before and after,
 /// the surface with the mean of its strips by their numbers of points. Everything is over the body's diagonal.
-/// Calibrated on whole runs: docs/hybrid.md.
+/// What b, c and the first a are depends on what is stated (Statement), found on whole runs: docs/hybrid.md.
 class ExpectedError {
  public:
+  /// How s is to be taken.
+  struct Statement {
+    double first_scale;  ///< a, before there is a comparison
+    bool is_compared;    ///< whether that counts as one
+    double
+        along_front;  ///< b: deviation of the mean error of a front over that of its points, which a front averages
+    double persistence;  ///< c
+  };
+  /// Errors of a closed form have one sense, frame after frame, and the spread between trees is less than theirs.
+  static constexpr Statement kUnknown{4, false, 1, 1};
+  /// Compared with errors on runs that the predictor has not seen: those are scatter. Between neighbours on a front they
+  /// have a correlation of 0.3, from frame to frame of 0.15.
+  static constexpr Statement kCalibrated{1, true, 0.6, 0};
+
   /// @param diagonal  of the body [m]; @param crack_edge  r̄ [m]
-  ExpectedError(const ElasticConstants& m, double diagonal, double crack_edge)
-      : m_(m), diagonal_(diagonal), crack_edge_(crack_edge) {}
+  ExpectedError(const ElasticConstants& m, double diagonal, double crack_edge,
+                const Statement& statement = kUnknown)
+      : m_(m),
+        diagonal_(diagonal),
+        crack_edge_(crack_edge),
+        statement_(statement),
+        scale_(statement.first_scale),
+        compared_(statement.is_compared) {}
 
   /// Mean of d along the front that the crack would have, if it advanced by these predictions. Strips that follow
   /// are off by that much at least.
@@ -42,11 +64,12 @@ class ExpectedError {
   /// a, as last compared.
   double scale() const { return scale_; }
 
-  static constexpr double kFirstScale = 4;
-
  private:
   struct Deviation {
-    double angle = 0, stretch = 0, earlier = 0;  ///< θ [rad], e, D [m]
+    double angle = 0;    ///< σ_θ [rad]
+    double both = 0;     ///< κ [m]
+    double stretch = 0;  ///< σ_e [m]
+    double earlier = 0;  ///< D [m]
     double distance() const { return std::hypot(stretch, earlier); }
   };
   struct Advance {
@@ -54,6 +77,7 @@ class ExpectedError {
     double of_strip() const { return 0.5 * (before.distance() + after.distance()); }
   };
   Deviation deviation(const FrontPoint& point) const;
+  Deviation after_error(const Deviation& before, double error) const;
   std::vector<Advance> predicted_advances(const CrackState& crack,
                                           const std::vector<FrontOpening>& predicted) const;
   void compare(const std::vector<FrontOpening>& solved, const std::vector<FrontOpening>& predicted);
@@ -61,8 +85,9 @@ class ExpectedError {
 
   ElasticConstants m_;
   double diagonal_, crack_edge_;
-  double scale_ = kFirstScale;
-  bool compared_ = false;
+  Statement statement_;
+  double scale_;
+  bool compared_;
   std::unordered_map<NodeId, Advance> at_;  // by front node of the sheet
   double sum_ = 0, points_ = 0;
 };

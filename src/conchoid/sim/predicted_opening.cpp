@@ -20,7 +20,7 @@ double diagonal_of(const PreparedBody& body) {
 
 }  // namespace
 
-PredictedOpening::PredictedOpening(const PredictionContext& c)
+PredictedOpening::PredictedOpening(const PredictionContext& c, const ExpectedError::Statement& statement)
     : bem_(c.bem),
       sif_(c.sif),
       material_(c.material.elastic()),
@@ -28,7 +28,7 @@ PredictedOpening::PredictedOpening(const PredictionContext& c)
       toughness_factor_(c.body.toughness),
       solve_every_(c.solve_every),
       tolerance_(c.tolerance),
-      error_(material_, diagonal_of(c.body), c.body.crack_edge),
+      error_(material_, diagonal_of(c.body), c.body.crack_edge, statement),
       history_(c.material, c.body.toughness, c.body.crack_edge) {}
 
 bool PredictedOpening::is_due(int frame) const {
@@ -103,7 +103,8 @@ void PredictedOpening::set_intensity(const FrontPoint& point, const Vec3& K, Fro
 }
 
 OpeningByPredictor::OpeningByPredictor(const PredictionContext& c, const OpeningPredictor& predictor)
-    : PredictedOpening(c), predictor_(predictor) {
+    : PredictedOpening(c, predictor.calibrated() ? ExpectedError::kCalibrated : ExpectedError::kUnknown),
+      predictor_(predictor) {
   if (predictor.looks_around()) surroundings_ = std::make_unique<FrontSurroundings>(c.body);
 }
 
@@ -152,6 +153,7 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
     o.in_range = predictions[p].in_range;
     if (predictions[p].driving) {
       set_intensity(point, *predictions[p].driving, o);
+      o.spread = predictions[p].driving_spread;
       continue;
     }
     o.opening = in_world(history().find(point.correlation)->frame, predictions[p].opening);

@@ -40,7 +40,9 @@ class PredictedOpening : public OpeningSource {
   void take_carried(const CrackState& crack, const std::vector<FrontOpening>& openings) final;
 
  protected:
-  explicit PredictedOpening(const PredictionContext& context);
+  /// @param statement  what errors are expected by
+  explicit PredictedOpening(const PredictionContext& context,
+                            const ExpectedError::Statement& statement = ExpectedError::kUnknown);
   /// Opening and K at every point, as open(); points of which nothing is known are marked.
   virtual std::vector<FrontOpening> predict(const CrackState& crack) const = 0;
   /// What else is to be known of the cracks as they stand, before they are solved or predicted, and after.
