@@ -246,6 +246,9 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
   EXPECT_EQ(info["models"], json::array({"cube"}));
   EXPECT_EQ(info["material"]["poisson_ratio"], 0.327);
 
+  folder.write("unseen.toml", kSpec + "seed = 99\n");
+  json_of(folder, {"database", "generate", "unseen.toml", "--runs", "30", "--out", "unseen.h5"});
+
   const std::vector<std::pair<std::string, std::vector<std::string>>> models = {
       {"forest", {"--trees", "10", "--depth", "6"}},
       {"boosted", {"--trees", "10", "--depth", "4"}},
@@ -272,6 +275,16 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
     EXPECT_EQ(pure["hash"], run["hash"]);
     EXPECT_EQ(pure["solved_frames"], 1);
     EXPECT_GT(pure["expected_error"].get<double>(), 0);
+    EXPECT_TRUE(trained["calibration"].is_null());
+    if (model == "forest" || model == "ridge") {  // the others are of one set, as four runs make no groups
+      const json calibrated =
+          json_of(folder, {"forest", "calibrate", model, "unseen.h5", "--out", "calibrated"});
+      EXPECT_EQ(calibrated["calibration"].size(), 3u);
+      EXPECT_GT(calibrated["calibration"][0][0]["found"].get<double>(), 0);
+      EXPECT_EQ(json_of(folder, {"forest", "info", "calibrated"}), calibrated);
+      const json same = json_of(folder, {"run", "cube.toml", "--method", model, "--database", "calibrated"});
+      EXPECT_EQ(same["hash"], run["hash"]);  // of what it states, not of what it answers
+    }
     const json seen =
         json_of(folder, {"forest", "inspect", model, "--samples", "cube.h5", "--training", "cube.h5"});
     EXPECT_EQ(seen["modes"].is_null(), model == "ridge" || model == "network");

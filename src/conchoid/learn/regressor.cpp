@@ -99,8 +99,14 @@ void Regressor::calibrate(const SampleSet& unseen) {
       stated.push_back(predicted[i].spread[mode]);
       errors.push_back(label(unseen[i], record_.features)[mode] - predicted[i].mean[mode]);
     }
-    calibration[static_cast<std::size_t>(mode)] = SpreadCalibration::measure(stated, errors);
+    const auto is_something = [](double x) { return x != 0; };
+    if (std::ranges::any_of(stated, is_something) && std::ranges::any_of(errors, is_something))
+      calibration[static_cast<std::size_t>(mode)] = SpreadCalibration::measure(stated, errors);
   }
+  if (calibration == std::array<SpreadCalibration, 3>{})
+    throw InputError(
+        "the " + std::string(name()) +
+        " states no spread that could be calibrated, as it is of one set only; train it on more runs");
   record_.calibration = std::move(calibration);
 }
 

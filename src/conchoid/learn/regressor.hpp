@@ -82,7 +82,8 @@ class Regressor : public OpeningPredictor {
   /// Labels of samples: the mean over the images that the feature set has; the spread as calibrated.
   std::vector<Prediction> predict_labels(const SampleSet& samples) const;
   /// Replaces the calibration of the spread by one from samples of runs that the training has not seen. Throws InputError if
-  /// they are too few (SpreadCalibration::measure), or the very samples of the training.
+  /// they are too few (SpreadCalibration::measure), or the very samples of the training, or if it states no spread; a mode
+  /// without spread or without errors is left as it is.
   void calibrate(const SampleSet& unseen);
   bool calibrated() const override {
     return std::any_of(record_.calibration.begin(), record_.calibration.end(),

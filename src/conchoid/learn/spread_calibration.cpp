@@ -35,7 +35,7 @@ SpreadCalibration SpreadCalibration::measure(std::span<const double> stated, std
   if (order.size() < kLeastSamples)
     throw InputError(
         fmt::format("a calibration needs at least {} samples of which a spread is stated, there are {}; "
-                    "give runs that crack more, or a kind of regressor that states one",
+                    "give more runs",
                     kLeastSamples, order.size()));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return stated[a] < stated[b]; });
