@@ -56,11 +56,13 @@ struct HeldOutBody {
 
 // Of the body's scenes those in which boundary elements take enough frames.
 std::vector<std::string> usable_scenes(Workshop& workshop, const HeldOutBody& body, int count) {
+  std::vector<RunChoice> solved;
+  for (int i = 0; i < count; ++i)
+    solved.push_back({held_out_scene(body.scene, i), {}});
+  workshop.make_runs(solved);
   std::vector<std::string> scenes;
-  for (int i = 0; i < count; ++i) {
-    const std::string text = held_out_scene(body.scene, i);
-    if (workshop.run(text).document.frames >= kFewestFrames) scenes.push_back(text);
-  }
+  for (const RunChoice& run : solved)
+    if (workshop.run(run.text).document.frames >= kFewestFrames) scenes.push_back(run.text);
   return scenes;
 }
 
@@ -93,9 +95,13 @@ Findings held_out(Workshop& workshop) {
         fmt::format("{}: {} of {} scenes count; in the others a chip came off within {} frames.", body.title,
                     scenes.size(), count, kFewestFrames - 1));
     for (const MethodChoice& method : methods) {
-      Errors errors;
+      std::vector<RunChoice> predicted;
       for (const std::string& text : scenes)
-        errors.add(compare(workshop.run(text), workshop.run(text, limited(workshop, text, method))));
+        predicted.push_back({text, limited(workshop, text, method)});
+      workshop.make_runs(predicted);
+      Errors errors;
+      for (const RunChoice& run : predicted)
+        errors.add(compare(workshop.run(run.text), workshop.run(run.text, run.method)));
       table.rows.push_back(errors_row(body.title, method.title, errors));
       progress.advance();
     }

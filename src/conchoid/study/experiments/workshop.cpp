@@ -11,6 +11,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/make_folder.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/learn/database_provenance.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
@@ -123,22 +124,35 @@ const RunData& Workshop::run(const std::string& text, const MethodChoice& method
   const fs::path folder = run_folder(text, method);
   const auto found = runs_.find(folder.string());
   if (found != runs_.end()) return found->second;
-  if (!finished(folder)) {
-    RunOptions options;
-    options.method = method.method;
-    options.regressor = method.regressor;
-    options.tolerance = method.tolerance;
-    if (method.frames > 0) options.frames = method.frames;
-    options.folder = folder;
-    options.resume = true;
-    options.progress = false;
-    Scene scene = parse_scene(scene_text(text, method), "experiment", folder_);
-    scene.run.cache = prepared_;
-    if (method.method == "bem") prepare(scene);  // so that its time, too, is without preparing the body
-    const RunResult result = run_scene(scene, options);
-    if (result.document.stop == StopReason::interrupted) throw Interrupted("interrupted");
-  }
+  make_run(text, method);
   return runs_.emplace(folder.string(), read_run(folder)).first->second;
+}
+
+void Workshop::make_runs(const std::vector<RunChoice>& runs) const {
+  parallel_for(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      throw_if_interrupted();
+      make_run(runs[i].text, runs[i].method);
+    }
+  });
+}
+
+void Workshop::make_run(const std::string& text, const MethodChoice& method) const {
+  const fs::path folder = run_folder(text, method);
+  if (finished(folder)) return;
+  RunOptions options;
+  options.method = method.method;
+  options.regressor = method.regressor;
+  options.tolerance = method.tolerance;
+  if (method.frames > 0) options.frames = method.frames;
+  options.folder = folder;
+  options.resume = true;
+  options.progress = false;
+  Scene scene = parse_scene(scene_text(text, method), "experiment", folder_);
+  scene.run.cache = prepared_;
+  if (method.method == "bem") prepare(scene);  // so that its time, too, is without preparing the body
+  const RunResult result = run_scene(scene, options);
+  if (result.document.stop == StopReason::interrupted) throw Interrupted("interrupted");
 }
 
 fs::path Workshop::picture_file(const std::string& name) const {

@@ -43,6 +43,12 @@ struct MethodChoice {
   std::optional<double> tolerance = {};  ///< of hybrid runs
 };
 
+/// A run: a scene whose last table is [run], and how.
+struct RunChoice {
+  std::string text;
+  MethodChoice method = {};
+};
+
 /// Makes databases, forests and runs for experiments, each only once: everything is kept in a folder under a
 /// name made from all that it depends on, so that experiments share what they have in common, and what was
 /// interrupted goes on. Everything that is random has its seed in the texts.
@@ -63,6 +69,8 @@ class Workshop {
   const TrainedForest& forest(const std::string& database_text, const ForestChoice& choice);
   /// @param text  of a scene whose last table is [run]
   const RunData& run(const std::string& text, const MethodChoice& method = {});
+  /// Makes those of these runs that have not been made, side by side: for tables that tell no times.
+  void make_runs(const std::vector<RunChoice>& runs) const;
   /// Folder of that run, which has been made.
   std::filesystem::path run_folder(const std::string& text, const MethodChoice& method) const;
   /// Specifications of the databases that were asked for, directly or for a forest.
@@ -71,6 +79,7 @@ class Workshop {
   std::filesystem::path picture_file(const std::string& name) const;
 
  private:
+  void make_run(const std::string& text, const MethodChoice& method) const;
   std::filesystem::path cached(const std::string& kind, const std::string& made_from) const;
 
   std::filesystem::path folder_, armadillo_;
