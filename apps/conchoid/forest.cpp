@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -55,7 +54,7 @@ std::string calibration_text(const Regressor& regressor) {
     std::vector<std::string> knots;
     for (const SpreadCalibration::Knot& knot : regressor.record().calibration[mode].knots())
       knots.push_back(fmt::format("{:.3g} → {:.3g}", knot.stated, knot.found));
-    text += fmt::format("\n  {:<3} {}", std::array{"I", "II", "III"}[mode], fmt::join(knots, ", "));
+    text += fmt::format("\n  {:<3} {}", kModes[mode], fmt::join(knots, ", "));
   }
   return text;
 }
@@ -75,25 +74,26 @@ std::string regressor_text(const Regressor& regressor) {
   return text;
 }
 
-std::vector<Database> read_databases(const std::vector<std::string>& files, std::string_view use) {
+// Of the databases that are named, the samples of the classes that are, as the feature set learns from them.
+JoinedSamples chosen_samples(const ForestOptions& options, FeatureSet features, std::string_view use) {
   std::vector<Database> databases;
-  for (const std::string& file : files) {
+  for (const std::string& file : options.samples) {
     databases.push_back(read_database(file));
     if (!databases.back().complete())
       warning(fmt::format("{}: some planned runs are missing; the {} goes by what is there", file, use));
   }
-  return databases;
+  TrainingChoice choice = options.choice;
+  choice.end_game = learns_end_game(features);
+  for (const auto* classes : {&choice.only, &choice.without})
+    require_classes(databases, *classes);
+  return join_samples(databases, choice);
 }
 
 void train(ForestOptions options, const CommonOptions& common) {
   options.settings.features = feature_set_from_name(options.features);
   for (const auto& [name, option] : options.given)
     if (option->count() > 0) options.settings.options[name] = options.numbers[name];
-  const std::vector<Database> databases = read_databases(options.samples, "training");
-  options.choice.end_game = learns_end_game(options.settings.features);
-  for (const auto* classes : {&options.choice.only, &options.choice.without})
-    require_classes(databases, *classes);
-  JoinedSamples joined = join_samples(databases, options.choice);
+  JoinedSamples joined = chosen_samples(options, options.settings.features, "training");
   Split split{std::move(joined.samples), {}};
   if (options.hold_out > 0) split = split_by_run(split.training, options.hold_out, options.settings.seed);
 
@@ -116,13 +116,9 @@ void train(ForestOptions options, const CommonOptions& common) {
   print(json.dump());
 }
 
-void calibrate(ForestOptions options, const CommonOptions& common) {
+void calibrate(const ForestOptions& options, const CommonOptions& common) {
   const std::unique_ptr<Regressor> model = load_regressor(database_file(options.file));
-  const std::vector<Database> databases = read_databases(options.samples, "calibration");
-  options.choice.end_game = learns_end_game(model->feature_set());
-  for (const auto* classes : {&options.choice.only, &options.choice.without})
-    require_classes(databases, *classes);
-  model->calibrate(join_samples(databases, options.choice).samples);
+  model->calibrate(chosen_samples(options, model->feature_set(), "calibration").samples);
   model->save(options.out);
   print(common.json ? json_text(*model) : regressor_text(*model));
 }

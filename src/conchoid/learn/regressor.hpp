@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -51,8 +50,9 @@ struct TrainingRecord {
   std::vector<FeatureRange> ranges;  ///< per feature
   /// Labels are brought to zero mean and unit deviation before training, and back after.
   Vec3 label_mean = Vec3::Zero(), label_scale = Vec3::Ones();
-  std::array<SpreadCalibration, 3>
-      calibration;  ///< of the spread of labels, by runs that are not of the training
+  /// Of the spread of labels, by runs that are not of the training.
+  std::array<SpreadCalibration, 3> calibration;
+  bool calibrated() const { return calibration != std::array<SpreadCalibration, 3>{}; }
 };
 
 /// Label of one row of features.
@@ -85,10 +85,7 @@ class Regressor : public OpeningPredictor {
   /// they are too few (SpreadCalibration::measure), or the very samples of the training, or if it states no spread; a mode
   /// without spread or without errors is left as it is.
   void calibrate(const SampleSet& unseen);
-  bool calibrated() const override {
-    return std::any_of(record_.calibration.begin(), record_.calibration.end(),
-                       [](const SpreadCalibration& mode) { return !mode.empty(); });
-  }
+  bool calibrated() const override { return record_.calibrated(); }
   /// Throws InputError if the rows are of another feature set or not finite.
   std::vector<Prediction> predict(const FeatureMatrix& rows) const;
   /// @param row  features of the regressor's own set, finite

@@ -146,8 +146,7 @@ std::string regressor_bytes(std::string_view kind_name, const TrainingRecord& re
                       {"label_mean", to_json(record.label_mean)},
                       {"label_scale", to_json(record.label_scale)},
                       {"provenance", to_json(record.provenance)}});
-  if (record.calibration != std::array<SpreadCalibration, 3>{})
-    description["calibration"] = to_json(record.calibration);
+  if (record.calibrated()) description["calibration"] = to_json(record.calibration);
   ByteWriter content;
   content.put_text(description.dump(-1, ' ', false, json::error_handler_t::replace));
   content.put_raw(fit);

@@ -129,11 +129,9 @@ const RunData& Workshop::run(const std::string& text, const MethodChoice& method
 }
 
 void Workshop::make_runs(const std::vector<RunChoice>& runs) const {
-  parallel_for(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      throw_if_interrupted();
-      make_run(runs[i].text, runs[i].method);
-    }
+  parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
+    throw_if_interrupted();
+    make_run(runs[i].text, runs[i].method);
   });
 }
 
