@@ -8,7 +8,8 @@ another seed (fresh bodies, fresh loads), solved by boundary elements, by steady
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
 of the scene, and hybrid; and once more under 2.5 times the load. The study `own` is of bodies by databases of nothing else, under loads that these have not
 seen, by boosted trees; WORK then needs plate.boosted, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body. `worst` draws the
-runs of whole-runs that the forest without the class is farthest off on, into WORK/worst.
+runs of whole-runs that the forest without the class is farthest off on, into WORK/worst. `ablation` trains on world.h5 alone, without three classes, boosted
+trees that look at everything, at everything but one thing, at fewer runs, and other kinds of regressors, and compares their whole runs.
 """
 import argparse
 import json
@@ -20,9 +21,40 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "polyhedron"]
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
+# What boosted trees and others are trained without, or on (forest train's options), on the world alone.
+BOOSTED = ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]
+WITHIN = "traction*,lateral*,stress_growth,S/(S+stress),pull*"
+NET = "net*,taken*,force*,lever*,arms_growth,S/(S+arms)"
+BESIDE = "across*,ahead_across*,behind_across*,along*"
+AHEAD = "ahead,ahead_after,wall*,ligament_share"
+AROUND = "nearby*,front_*,slope*"
+TURN = "turn*,kinked*"
+CRACK = "curvature*,r_bar/crack_radius"
+ABLATION = {"everything": BOOSTED,
+            "no stress of the uncracked body": [*BOOSTED, "--hide", WITHIN],
+            "no net section": [*BOOSTED, "--hide", NET],
+            "neither": [*BOOSTED, "--hide", f"{WITHIN},{NET}"],
+            "no walls beside": [*BOOSTED, "--hide", BESIDE],
+            "no distances ahead, no ligament": [*BOOSTED, "--hide", AHEAD],
+            "no walls at all": [*BOOSTED, "--hide", f"{BESIDE},{AHEAD}"],
+            "no neighbours on the front": [*BOOSTED, "--hide", AROUND],
+            "no turn": [*BOOSTED, "--hide", TURN],
+            "no size and curvature of the crack": [*BOOSTED, "--hide", CRACK],
+            "K at the point alone": [*BOOSTED, "--hide", ",".join([WITHIN, NET, BESIDE, AHEAD, AROUND, TURN, CRACK])],
+            "no end game": [*BOOSTED, "--no-end-game"],
+            "half of the runs": [*BOOSTED, "--hold-out", "0.5"],
+            "a quarter": [*BOOSTED, "--hold-out", "0.75"],
+            "an eighth": [*BOOSTED, "--hold-out", "0.875"],
+            "boosted, 150 of depth 4": ["--model", "boosted", "--trees", "150", "--depth", "4", "--rate", "0.14"],
+            "forest, 12 of depth 18, leaves of 8": ["--trees", "12", "--depth", "18", "--leaf", "8"],
+            "forest (50, 10)": ["--trees", "50", "--depth", "10"],
+            "forest (25, 15)": ["--trees", "25", "--depth", "15"],
+            "ridge, squares and products": ["--model", "ridge", "--degree", "2"],
+            "network": ["--model", "network"]}
+ABLATION_LEFT_OUT = ["box", "cylinder", "cup"]  # of the classes of the world, all at once
 MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
           "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
-STUDIES = ["whole-runs", "load", "noise", "own", "worst"]
+STUDIES = ["whole-runs", "load", "noise", "own", "worst", "ablation"]
 WORST = 10
 # Bodies by their own databases: its name, what differs from its specification, the first run that it has not seen (of the plate the
 # seed stays: another would be another plate).
@@ -182,6 +214,34 @@ def own_table(results):
     print(flush=True)
 
 
+def ablation_tables(program, work, runs, armadillo):
+    """Of each variant: whole runs on fresh bodies of classes in training, and of those left out; and what one step says of it."""
+    files = []
+    for k, options in enumerate(ABLATION.values()):
+        files.append(work / f"ablation-{k}.model")
+        if not files[-1].exists():
+            call(program, "forest", "train", work / "world.h5", "--features", "versatile", "--without", ",".join(ABLATION_LEFT_OUT), *options,
+                 "--out", files[-1])
+            print("trained:", list(ABLATION)[k], file=sys.stderr, flush=True)
+    results = {name: result_of(program, work, name, "ablation", runs, armadillo, files) for name in WORLD}
+    groups = [[n for n in WORLD if n not in ABLATION_LEFT_OUT], ABLATION_LEFT_OUT]
+    columns = ["trained", "samples", "classes in training: median, 90 %", "frames", "left out: median, 90 %", "frames",
+               *(f"{n} (left out)" for n in ABLATION_LEFT_OUT)]
+    print("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|")
+    for title, method in [("`steady`", "steady"), ("`kept`", "kept"), ("`stress`", "stress"), *((t, f.name) for t, f in zip(ABLATION, files))]:
+        row = [title]
+        row.append(json.loads(call(program, "forest", "info", work / method, "--json"))["samples"] if method.endswith(".model") else "")
+        for group in [*groups, *([n] for n in ABLATION_LEFT_OUT)]:
+            of_group = [r for name in group for r in results[name]["runs"] if r["method"] == method]
+            off = sorted(100 * r["surface_mean"] for r in of_group)
+            row.append(f"{statistics.median(off):.2f}" + (f", {off[int(0.9 * (len(off) - 1))]:.1f}" if len(group) > 1 else ""))
+            if len(group) > 1:
+                row.append(f"{statistics.median(r['frames'][1] / r['frames'][0] for r in of_group):.2f}")
+        print("| " + " | ".join(map(str, row)) + " |", flush=True)
+    counts = [len({(name, r["run"]) for name in group for r in results[name]["runs"]}) for group in groups]
+    print(f"\n{counts[0]} and {counts[1]} runs.\n", flush=True)
+
+
 def draw_worst(program, work, runs, results, role, files):
     """Pictures of the runs of all classes together that a regressor is farthest off on, solved beside predicted, and a list of them."""
     rows = [(r, name) for name, result in results for r in result["runs"] if role_of(r["method"], name) == role]
@@ -225,6 +285,9 @@ def main():
         print("By their own databases, loads not seen\n")
         chosen = [n for n in a.only.split(",") if n in OWN] if a.only else OWN
         own_table([(n, own_result(a.program, a.work, n, 2 * a.runs)) for n in chosen])
+    if "ablation" in studies:
+        print("What each thing brings: trained on the world without " + ", ".join(ABLATION_LEFT_OUT) + "\n")
+        ablation_tables(a.program, a.work, few, a.armadillo)
     if "load" in studies:
         print(f"Load x {LOAD}\n")
         table(run("load", few, files, "--load", LOAD), closed + learned)

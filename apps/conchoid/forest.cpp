@@ -35,6 +35,8 @@ struct ForestOptions {
   std::map<std::string, CLI::Option*> given;
   double hold_out = 0;
   TrainingChoice choice;
+  std::vector<std::string> hidden;
+  bool no_end_game = false;
 };
 
 void require_classes(const std::vector<Database>& databases, const std::set<std::string>& classes) {
@@ -64,6 +66,7 @@ std::string regressor_text(const Regressor& regressor) {
   std::string text = fmt::format("model       {}\nfeatures    {}\n{}\ntrained on  {} samples of {} runs ({})",
                                  regressor_kind(regressor.name()).title, name(regressor.feature_set()),
                                  regressor.summary(), p.samples, p.runs, fmt::join(p.models, ", "));
+  if (!p.hidden_features.empty()) text += fmt::format("\nhidden      {}", fmt::join(p.hidden_features, ", "));
   text += regressor.calibrated()
               ? "\nspread, stated → found on runs that it has not seen" + calibration_text(regressor)
               : "\nspread      as stated (not calibrated)";
@@ -83,7 +86,7 @@ JoinedSamples chosen_samples(const ForestOptions& options, FeatureSet features, 
       warning(fmt::format("{}: some planned runs are missing; the {} goes by what is there", file, use));
   }
   TrainingChoice choice = options.choice;
-  choice.end_game = learns_end_game(features);
+  choice.end_game = learns_end_game(features) && !options.no_end_game;
   for (const auto* classes : {&choice.only, &choice.without})
     require_classes(databases, *classes);
   return join_samples(databases, choice);
@@ -93,7 +96,9 @@ void train(ForestOptions options, const CommonOptions& common) {
   options.settings.features = feature_set_from_name(options.features);
   for (const auto& [name, option] : options.given)
     if (option->count() > 0) options.settings.options[name] = options.numbers[name];
+  std::vector<std::string> hidden = named_features(options.settings.features, options.hidden);
   JoinedSamples joined = chosen_samples(options, options.settings.features, "training");
+  joined.provenance.hidden_features = std::move(hidden);
   Split split{std::move(joined.samples), {}};
   if (options.hold_out > 0) split = split_by_run(split.training, options.hold_out, options.settings.seed);
 
@@ -185,6 +190,12 @@ void add_train(CLI::App& group, Invocation& invocation, const std::shared_ptr<Fo
       ->check(CLI::Range(0.0, 0.9))
       ->capture_default_str();
   add_class_choice(*command, *options);
+  command
+      ->add_option("--hide", options->hidden,
+                   "features not to look at, with commas between; traction* are all that begin so")
+      ->delimiter(',');
+  command->add_flag("--no-end-game", options->no_end_game,
+                    "leave out openings above 3 r̄, as all sets but versatile do");
 }
 
 void add_calibrate(CLI::App& group, Invocation& invocation, const std::shared_ptr<ForestOptions>& options) {

@@ -11,6 +11,19 @@
 namespace conchoid {
 namespace {
 
+TEST(Features, AreNamedByNameOrByHowTheyBegin) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(named_features(FeatureSet::versatile, {"turn*", "w_II"}),
+            (Names{"w_II", "turn_21", "turn_31", "turn_23"}));
+  EXPECT_EQ(named_features(FeatureSet::paper_4, {"K_c"}), Names{"K_c"});
+  EXPECT_TRUE(named_features(FeatureSet::paper_4, {}).empty());
+  EXPECT_THROW(named_features(FeatureSet::paper_4, {"wall*"}), InputError);
+  EXPECT_THROW(named_features(FeatureSet::paper_4, {"K_c*", "K_I*"}), InputError);  // nothing left
+  FeatureMatrix rows{FeatureSet::paper_4, 4, {1, 2, 3, 4, 5, 6, 7, 8}, {}};
+  hide_features(rows, {"K_c"});
+  EXPECT_EQ(rows.values, (std::vector<double>{1, 2, 3, 0, 5, 6, 7, 0}));
+}
+
 using test::synthetic_runs;
 
 std::vector<double> row_of(const Sample& s, FeatureSet set) {

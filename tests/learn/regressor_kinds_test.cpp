@@ -80,6 +80,33 @@ TEST(RegressorKinds, TheFileSaysWhichItIs) {
   }
 }
 
+// Whatever is learned: other values of what is hidden give the same answer, bit for bit, also after the file was read.
+TEST(RegressorKinds, HiddenFeaturesAreNotLookedAt) {
+  const TemporaryFolder folder;
+  const SampleSet samples = synthetic_runs(10, 1.1, 0.5);
+  FeatureMatrix rows = feature_matrix(samples, FeatureSet::dimensionless);
+  FeatureMatrix others = rows;
+  for (std::size_t i = 0; i < rows.rows(); ++i)
+    others.row_of(i)[0] += 3 + static_cast<double>(i);  // K_I/S
+  for (const RegressorKind& kind : regressor_kinds()) {
+    const auto seeing = trained(kind);
+    Provenance provenance;
+    provenance.hidden_features = {"K_I/S"};
+    const auto blind = train_regressor(kind, samples, quick(kind, FeatureSet::dimensionless), provenance);
+    blind->save(folder / "blind");
+    const auto again = load_regressor(folder / "blind");
+    EXPECT_EQ(again->provenance().hidden_features, provenance.hidden_features);
+    bool differs = false;
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+      const Prediction one = blind->predict(rows.row(i)), other = again->predict(others.row(i));
+      EXPECT_EQ(one.mean, other.mean) << kind.name;
+      EXPECT_EQ(one.in_range, other.in_range) << kind.name;
+      differs |= one.mean != seeing->predict(rows.row(i)).mean;
+    }
+    EXPECT_TRUE(differs) << kind.name << ": K_I/S tells nothing here, so hiding it tests nothing";
+  }
+}
+
 void expect_refused(const std::filesystem::path& file, const std::string& about) {
   const std::string text = refusal([&] { load_regressor(file); });
   expect_part(text, file.filename().string(), about);

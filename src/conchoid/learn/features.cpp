@@ -1,8 +1,11 @@
 #include "conchoid/learn/features.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "conchoid/core/error.hpp"
@@ -87,6 +90,35 @@ std::vector<std::string> feature_names(FeatureSet set) {
          {"curvature*r_bar", "surface_proximity", "traction_I/S", "traction_II/S", "traction_III/S"})
       names.emplace_back(extra);
   return names;
+}
+
+std::vector<std::string> named_features(FeatureSet set, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = feature_names(set);
+  const auto stands_for = [](const std::string& wanted, const std::string& feature) {
+    return wanted.ends_with('*') ? feature.starts_with(wanted.substr(0, wanted.size() - 1))
+                                 : feature == wanted;
+  };
+  for (const std::string& wanted : names)
+    if (std::none_of(known.begin(), known.end(), [&](const auto& f) { return stands_for(wanted, f); }))
+      throw InputError(fmt::format("feature set {} has no feature \"{}\"; it has {}", name(set), wanted,
+                                   fmt::join(known, ", ")));
+  std::vector<std::string> chosen;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(chosen), [&](const auto& feature) {
+    return std::any_of(names.begin(), names.end(), [&](const auto& n) { return stands_for(n, feature); });
+  });
+  if (chosen.size() == known.size())
+    throw InputError(fmt::format("all features of {} would be hidden; leave one at least", name(set)));
+  return chosen;
+}
+
+void hide_features(FeatureMatrix& rows, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = feature_names(rows.set);
+  for (const std::string& name : names) {
+    const auto c = static_cast<std::size_t>(std::find(known.begin(), known.end(), name) - known.begin());
+    if (c == known.size()) throw std::logic_error("no such feature: " + name);
+    for (std::size_t i = 0; i < rows.rows(); ++i)
+      rows.row_of(i)[c] = 0;
+  }
 }
 
 std::size_t feature_count(FeatureSet set) {

@@ -96,4 +96,10 @@ struct FeatureMatrix {
 
 FeatureMatrix feature_matrix(const SampleSet& samples, FeatureSet set);
 
+/// Features of the set that are named, in its order; a name that ends in * stands for all that begin so. Throws InputError
+/// that lists the known names if nothing is named so, or if nothing would be left.
+std::vector<std::string> named_features(FeatureSet set, const std::vector<std::string>& names);
+/// Sets the features of these names to zero in every row.
+void hide_features(FeatureMatrix& rows, const std::vector<std::string>& names);
+
 }  // namespace conchoid

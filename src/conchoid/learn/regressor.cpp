@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "conchoid/core/error.hpp"
@@ -34,13 +35,17 @@ Prediction Regressor::predict(std::span<const double> row) const {
   return predict(FeatureMatrix{record_.features, row.size(), {row.begin(), row.end()}, {}}).front();
 }
 
-std::vector<Prediction> Regressor::predict(const FeatureMatrix& matrix) const {
-  if (matrix.set != record_.features || matrix.columns != record_.ranges.size())
+std::vector<Prediction> Regressor::predict(const FeatureMatrix& rows) const {
+  if (rows.set != record_.features || rows.columns != record_.ranges.size())
     throw InputError("the " + std::string(name()) + " was trained with feature set " +
                      std::string(conchoid::name(record_.features)) + ", the data are of " +
-                     std::string(conchoid::name(matrix.set)) + " (" + std::to_string(matrix.columns) +
+                     std::string(conchoid::name(rows.set)) + " (" + std::to_string(rows.columns) +
                      " features); compute the features of its own set or train another one");
-  require_finite(matrix, name());
+  require_finite(rows, name());
+  const std::vector<std::string>& hidden = record_.provenance.hidden_features;
+  std::optional<FeatureMatrix> seen;
+  if (!hidden.empty()) hide_features(seen.emplace(rows), hidden);
+  const FeatureMatrix& matrix = seen ? *seen : rows;
   std::vector<Prediction> result(matrix.rows());
   parallel_for(result.size(), 256, [&](std::size_t begin, std::size_t end) {
     predict_standardised(matrix, begin, end, std::span(result).subspan(begin, end - begin));

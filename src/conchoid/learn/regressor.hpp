@@ -28,6 +28,8 @@ struct Provenance {
   std::size_t runs = 0, samples = 0;
   std::uint64_t samples_hash = 0;  ///< SampleSet::hash of the training samples
   std::string spec;                ///< text of the specification the runs were generated from
+  /// Names of features that it was not to look at: zero in training, and whenever it is asked.
+  std::vector<std::string> hidden_features = {};
   bool operator==(const Provenance&) const = default;
 };
 

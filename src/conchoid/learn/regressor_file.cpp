@@ -27,16 +27,18 @@ MaterialRecord material_from(const json& j) {
 }
 
 json to_json(const Provenance& p) {
-  return {{"models", p.models},
-          {"material", json::parse(json_text(p.material))},
-          {"resolution", p.resolution},
-          {"runs", p.runs},
-          {"samples", p.samples},
-          {"samples_hash", p.samples_hash},
-          {"spec", p.spec}};
+  json j = {{"models", p.models},
+            {"material", json::parse(json_text(p.material))},
+            {"resolution", p.resolution},
+            {"runs", p.runs},
+            {"samples", p.samples},
+            {"samples_hash", p.samples_hash},
+            {"spec", p.spec}};
+  if (!p.hidden_features.empty()) j["hidden_features"] = p.hidden_features;
+  return j;
 }
 
-Provenance provenance_from(const json& j) {
+Provenance provenance_from(const json& j, FeatureSet set) {
   Provenance p;
   p.models = j.at("models").get<std::vector<std::string>>();
   p.material = material_from(j.at("material"));
@@ -45,6 +47,8 @@ Provenance provenance_from(const json& j) {
   p.samples = j.at("samples");
   p.samples_hash = j.at("samples_hash");
   p.spec = j.at("spec");
+  if (j.contains("hidden_features"))
+    p.hidden_features = named_features(set, j.at("hidden_features").get<std::vector<std::string>>());
   return p;
 }
 
@@ -97,7 +101,7 @@ TrainingRecord record_from(const json& d) {
     throw InputError("the number of feature ranges is wrong");
   record.label_mean = vec_from(d.at("label_mean"));
   record.label_scale = vec_from(d.at("label_scale"));
-  record.provenance = provenance_from(d.at("provenance"));
+  record.provenance = provenance_from(d.at("provenance"), record.features);
   if (d.contains("calibration")) record.calibration = calibration_from(d.at("calibration"));
   return record;
 }

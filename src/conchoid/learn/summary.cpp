@@ -156,6 +156,7 @@ std::string json_text(const Regressor& regressor) {
   j.update({{"model", regressor.name()},
             {"feature_set", name(regressor.feature_set())},
             {"features", features},
+            {"hidden_features", p.hidden_features},
             {"models", p.models},
             {"material", json::parse(json_text(p.material))},
             {"resolution", p.resolution},

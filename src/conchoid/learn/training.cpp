@@ -51,6 +51,7 @@ TrainingData prepare_training(const SampleSet& samples, FeatureSet features, Pro
   data.record.provenance.samples_hash = samples.hash();
   const int images = image_count(features);
   data.rows = feature_matrix(samples, features);
+  hide_features(data.rows, data.record.provenance.hidden_features);
   const std::vector<double> plain = data.rows.values;
   const std::vector<std::int32_t> stretch = data.rows.stretch;
   data.run = samples.run();
