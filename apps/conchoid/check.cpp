@@ -12,6 +12,7 @@
 #include "command.hpp"
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/make_folder.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/remesh/examine.hpp"
@@ -309,7 +310,7 @@ void write_repaired(const CheckCommand& command, const AttributedMesh& surface, 
 /// One file per body, with the cavities in it, in the order in which they come in the file.
 std::vector<std::string> write_bodies(const CheckCommand& command, const AttributedMesh& surface) {
   std::vector<std::string> files;
-  fs::create_directories(command.split);
+  make_folder(command.split, "--split");
   std::string ending = fs::path(command.file).extension().string();
   if (ending != ".obj" && ending != ".off" && ending != ".stl") ending = ".ply";
   for (const std::vector<TriId>& triangles : separate_bodies(surface.mesh)) {

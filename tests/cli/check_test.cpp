@@ -138,6 +138,11 @@ TEST(Check, SeveralBodiesAreRefusedAndWrittenApart) {
       << "the cavity stays with its body";
   EXPECT_NEAR(enclosed_volume(read_mesh(folder / "parts/two_1.obj")), 1, 1e-12);
   EXPECT_EQ(run_program({"check", "parts/two_0.obj"}, folder.path()).status, 0);
+
+  folder.write("taken", "");  // no folder
+  const Outcome refused = run_program({"check", "two.obj", "--split", "taken"}, folder.path());
+  EXPECT_EQ(refused.status, 2);
+  expect_parts(refused.err, {"taken", "--split"});
 }
 
 TEST(Check, WhatIsGoodOrOnlyUntidyIsNotMoved) {

@@ -6,6 +6,7 @@
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/log.hpp"
+#include "conchoid/core/make_folder.hpp"
 
 namespace conchoid {
 namespace {
@@ -27,11 +28,7 @@ std::string content_of(const std::string& file, const std::string& name) {
 }  // namespace
 
 ByteCache::ByteCache(std::filesystem::path folder) : folder_(std::move(folder)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error || !std::filesystem::is_directory(folder_))
-    throw InputError("--cache " + folder_.string() + ": is no folder and cannot be made one (" +
-                     error.message() + "); name another");
+  make_folder(folder_, "--cache");
 }
 
 std::filesystem::path ByteCache::file_of(const std::string& name) const {

@@ -98,6 +98,7 @@ void Regressor::calibrate(const SampleSet& unseen) {
   require_recorded(record_.features, unseen);
   const std::vector<Prediction> predicted = stated_labels(unseen);
   std::array<SpreadCalibration, 3> calibration;
+  bool states_some = false;
   for (int mode = 0; mode < 3; ++mode) {
     std::vector<double> stated, errors;
     for (std::size_t i = 0; i < unseen.size(); ++i) {
@@ -105,13 +106,18 @@ void Regressor::calibrate(const SampleSet& unseen) {
       errors.push_back(label(unseen[i], record_.features)[mode] - predicted[i].mean[mode]);
     }
     const auto is_something = [](double x) { return x != 0; };
-    if (std::ranges::any_of(stated, is_something) && std::ranges::any_of(errors, is_something))
+    if (!std::ranges::any_of(stated, is_something)) continue;
+    states_some = true;
+    if (std::ranges::any_of(errors, is_something))
       calibration[static_cast<std::size_t>(mode)] = SpreadCalibration::measure(stated, errors);
   }
-  if (calibration == std::array<SpreadCalibration, 3>{})
+  if (!states_some)
     throw InputError(
         "the " + std::string(name()) +
         " states no spread that could be calibrated, as it is of one set only; train it on more runs");
+  if (calibration == std::array<SpreadCalibration, 3>{})
+    throw InputError("the " + std::string(name()) +
+                     " makes no error on these samples to calibrate its spread by; give runs that differ");
   record_.calibration = std::move(calibration);
 }
 
