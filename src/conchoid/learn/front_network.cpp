@@ -128,7 +128,9 @@ FrontNetwork::Passed FrontNetwork::pass(const Matrix& rows, const std::vector<ch
 }
 
 double FrontNetwork::loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted) const {
-  return static_cast<double>((pass(rows, goes_on).answer - wanted).squaredNorm()) /
+  const Matrix error = (pass(rows, goes_on).answer - wanted).cwiseAbs();
+  const Matrix square = error.cwiseMin(kLinear);
+  return static_cast<double>((square.array() * (2 * error - square).array()).sum()) /
          static_cast<double>(rows.cols());
 }
 
@@ -145,7 +147,7 @@ void FrontNetwork::loss_gradient(const Matrix& rows, const std::vector<char>& go
           g * in_neighbours->transpose();
     Eigen::Map<Eigen::VectorXf>(gradient.data() + layer.offset, layer.rows) = g.rowwise().sum();
   };
-  const Matrix g_last = (2 / n) * (answer - wanted);
+  const Matrix g_last = (2 / n) * (answer - wanted).cwiseMin(kLinear).cwiseMax(-kLinear);
   put(last, g_last, h.back(), nullptr);
   Matrix g = own(last).transpose() * g_last;  // by h of the layer at hand
   for (std::size_t l = layers_.size() - 2; l > 0; --l) {

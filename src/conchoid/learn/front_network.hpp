@@ -34,13 +34,15 @@ class FrontNetwork {
   /// @param goes_on  per column, whether the next one is its neighbour
   Matrix answer(const Matrix& rows, const std::vector<char>& goes_on) const;
 
-  /// Mean over rows of |y − wanted|².
+  /// Mean over rows of the sum over answers of e² where e = |y − wanted| ≤ δ, 2 δ e − δ² beyond (Huber 1964), δ = kLinear:
+  /// K at mouths and last ligaments scatters far, and its squares would outweigh everything else.
   double loss(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted) const;
   /// Its gradient by the parameters.
   void loss_gradient(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
                      std::vector<float>& gradient) const;
 
   static constexpr int kConvolutions = 2;
+  static constexpr float kLinear = 0.5F;  // × deviation of the label
 
  private:
   struct Layer {

@@ -90,7 +90,7 @@ class Adam {
   float first_ = 1, second_ = 1;
 };
 
-// Mean square error over stretches, a batch at a time.
+// The loss over stretches, a batch at a time.
 double error(const FrontNetwork& network, const NetworkData& data, const std::vector<Stretch>& of) {
   double sum = 0, rows = 0;
   std::size_t begin = 0;
