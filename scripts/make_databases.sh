@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the trained regressors that come with the program: databases/*.forest and *.boosted from the specifications beside them.
+# Makes the trained regressors that come with the program: databases/*.forest, *.boosted and *.network from the specifications beside them.
 # scripts/make_databases.sh [CONCHOID [WORK]] — WORK keeps the databases of runs (some 100 MB), to go on after a stop.
 set -eu
 cd "$(dirname "$0")/.."
@@ -31,11 +31,14 @@ done
   --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"
 "$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
   --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
+"$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
+  --features versatile --model network --out "$work/versatile.network"
 
 for name in cube cylinder bar edge-crack armadillo versatile; do
   unseen=$work/$name-unseen.h5
   if [ $name = versatile ]; then unseen=$work/world-unseen.h5; fi
-  for kind in forest boosted; do
+  for kind in forest boosted network; do
+    if [ ! -e "$work/$name.$kind" ]; then continue; fi
     "$conchoid" forest calibrate "$work/$name.$kind" "$unseen" --out "databases/$name.$kind"
   done
 done

@@ -158,8 +158,8 @@ void add_run(CLI::App& program, Invocation& invocation) {
   command->add_option(
       "--database", options->database,
       fmt::format("for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
-                  "forest train; a name without a kind is of the kind of the method; without it forest and "
-                  "boosted take {}",
+                  "forest train; a name without a kind is of the kind of the method; without it forest, "
+                  "boosted and network take {}",
                   trained, fmt::join(shipped_names(), ", "), standard_database("forest")));
   command
       ->add_option("--tolerance", options->tolerance,

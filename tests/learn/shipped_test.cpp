@@ -14,7 +14,8 @@ TEST(Shipped, EveryDatabaseIsFoundByNameAndReads) {
   for (const std::string_view name : shipped_names()) {
     const std::filesystem::path file = database_file(std::string(name));
     const auto regressor = load_regressor(file);
-    EXPECT_EQ(regressor->name(), name.ends_with(".boosted") ? "boosted" : "forest");
+    const auto dot = name.find('.');
+    EXPECT_EQ(regressor->name(), dot == std::string_view::npos ? "forest" : name.substr(dot + 1));
     EXPECT_EQ(regressor->feature_set(), FeatureSet::versatile) << name;
     EXPECT_GT(regressor->provenance().runs, 20u) << name;
     EXPECT_FALSE(regressor->provenance().spec.empty()) << name;
@@ -24,7 +25,7 @@ TEST(Shipped, EveryDatabaseIsFoundByNameAndReads) {
 }
 
 TEST(Shipped, TheStandardOneKnowsManyClassesOfBodies) {
-  for (const std::string_view kind : {"forest", "boosted"}) {
+  for (const std::string_view kind : {"forest", "boosted", "network"}) {
     const auto regressor = load_regressor(database_file(std::string(standard_database(kind)), kind));
     EXPECT_EQ(regressor->name(), kind);
     EXPECT_GE(regressor->provenance().models.size(), 9u);

@@ -43,12 +43,13 @@ const std::vector<std::string_view>& shipped_names() {
                                                       "bar.boosted",
                                                       "edge-crack.boosted",
                                                       "armadillo.boosted",
-                                                      "versatile.boosted"};
+                                                      "versatile.boosted",
+                                                      "versatile.network"};
   return names;
 }
 
 std::string_view standard_database(std::string_view kind) {
-  return kind == "forest" || kind == "boosted" ? "versatile" : "";
+  return kind == "forest" || kind == "boosted" || kind == "network" ? "versatile" : "";
 }
 
 fs::path shipped_file(std::string_view name) {

@@ -8,7 +8,7 @@
 namespace conchoid {
 
 /// Regressors that come with the program, by name, each a file in the folder databases/, NAME.forest where the name tells
-/// no kind; NAME.boosted are boosted trees of the same samples:
+/// no kind; NAME.boosted are boosted trees of the same samples, versatile.network networks:
 ///   cube, cylinder, bar, edge-crack, armadillo   of one body each, under random loads
 ///   versatile                                    of many classes of bodies: for any scene
 /// How they were made: databases/README.md, scripts/make_databases.sh.
