@@ -27,12 +27,10 @@ for name in cube cylinder bar edge-crack armadillo; do
   "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "$work/$name.forest"
   "$conchoid" forest train "$@" --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "$work/$name.boosted"
 done
-"$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"
-"$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
-"$conchoid" forest train "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5" \
-  --features versatile --model network --out "$work/versatile.network"
+set -- "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
+"$conchoid" forest train "$@" --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"
+"$conchoid" forest train "$@" --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
+"$conchoid" forest train "$@" --features versatile --model network --out "$work/versatile.network"
 
 for name in cube cylinder bar edge-crack armadillo versatile; do
   unseen=$work/$name-unseen.h5

@@ -21,8 +21,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "polyhedron"]
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
+MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
+          "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
 # What boosted trees and others are trained without, or on (forest train's options), on the world alone.
-BOOSTED = ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]
+BOOSTED = MODELS["boosted"]
 WITHIN = "traction*,lateral*,stress_growth,S/(S+stress),pull*"
 NET = "net*,taken*,force*,lever*,arms_growth,S/(S+arms)"
 BESIDE = "across*,ahead_across*,behind_across*,along*"
@@ -46,14 +48,12 @@ ABLATION = {"everything": BOOSTED,
             "a quarter": [*BOOSTED, "--hold-out", "0.75"],
             "an eighth": [*BOOSTED, "--hold-out", "0.875"],
             "boosted, 150 of depth 4": ["--model", "boosted", "--trees", "150", "--depth", "4", "--rate", "0.14"],
-            "forest, 12 of depth 18, leaves of 8": ["--trees", "12", "--depth", "18", "--leaf", "8"],
+            "forest, 12 of depth 18, leaves of 8": MODELS["forest"],
             "forest (50, 10)": ["--trees", "50", "--depth", "10"],
             "forest (25, 15)": ["--trees", "25", "--depth", "15"],
             "ridge, squares and products": ["--model", "ridge", "--degree", "2"],
             "network": ["--model", "network"]}
 ABLATION_LEFT_OUT = ["box", "cylinder", "cup"]  # of the classes of the world, all at once
-MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
-          "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
 STUDIES = ["whole-runs", "load", "noise", "own", "worst", "ablation"]
 WORST = 10
 # Bodies by their own databases: its name, what differs from its specification, the first run that it has not seen (of the plate the
@@ -163,6 +163,10 @@ def role_of(method, name):
     return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
 
 
+def quantile(ordered, share):
+    return ordered[int(share * (len(ordered) - 1))]
+
+
 def cell(score):
     if not score:
         return ""
@@ -186,7 +190,7 @@ def table(results, columns):
     for role, runs in pooled.items():
         values, both = sorted(runs.values()), [k for k in runs if against and k in pooled[against]]
         solved, made = (sum(s) for s in zip(*seconds[role]))
-        print(f"| {role} | {len(values)} | {100 * statistics.median(values):.2f} | {100 * values[int(0.9 * (len(values) - 1))]:.1f} | "
+        print(f"| {role} | {len(values)} | {100 * statistics.median(values):.2f} | {100 * quantile(values, 0.9):.1f} | "
               f"{100 * values[-1]:.1f} | {made / solved:.2f} | {sum(pooled[against][k] < runs[k] for k in both)} of {len(both)} |")
     print(flush=True)
 
@@ -207,7 +211,7 @@ def own_table(results):
         def spread(role):
             off = sorted(100 * r["surface_mean"] for r in runs[role])
             solved, made = (sum(s) for s in zip(*(r["opening_seconds"] for r in runs[role])))
-            return [f"{statistics.median(off):.2f}", f"{off[int(0.95 * (len(off) - 1))]:.2f}", f"{off[-1]:.1f}"], f"{made / solved:.2f}"
+            return [f"{statistics.median(off):.2f}", f"{quantile(off, 0.95):.2f}", f"{off[-1]:.1f}"], f"{made / solved:.2f}"
 
         (own, openings), (hybrid, with_solved) = spread("own"), spread("own, hybrid " + TOLERANCES[-1])
         near = sum(abs(r["frames"][0] - r["frames"][1]) <= 1 for r in runs["own"])
@@ -238,7 +242,7 @@ def ablation_tables(program, work, runs, armadillo):
         for group in [*groups, *([n] for n in ABLATION_LEFT_OUT)]:
             of_group = [r for name in group for r in results[name]["runs"] if r["method"] == method]
             off = sorted(100 * r["surface_mean"] for r in of_group)
-            row.append(f"{statistics.median(off):.2f}" + (f", {off[int(0.9 * (len(off) - 1))]:.1f}" if len(group) > 1 else ""))
+            row.append(f"{statistics.median(off):.2f}" + (f", {quantile(off, 0.9):.1f}" if len(group) > 1 else ""))
             if len(group) > 1:
                 row.append(f"{statistics.median(r['frames'][1] / r['frames'][0] for r in of_group):.2f}")
         print("| " + " | ".join(map(str, row)) + " |", flush=True)
