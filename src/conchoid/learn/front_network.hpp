@@ -9,28 +9,29 @@ namespace conchoid {
 class Random;
 
 /// A small network with convolution along the front. Rows x_i of one stretch of a front (n of them, F features each,
-/// standardised), M x_i the mean over the neighbours of row i (x_i itself where it has none):
+/// standardised), M x_i the mean over the neighbours of row i (x_i itself where it has none), S x the mean over the stretch:
 ///   h⁰ = tanh(A₀ x + b₀)
-///   h^l = h^(l−1) + tanh(A_l h^(l−1) + B_l M h^(l−1) + b_l),   l = 1, 2
-///   y = C h² + c
-/// So an answer depends on the row and two neighbours on either side. Both neighbours count alike: the sense of a front
-/// is arbitrary, and what has a sense (slopes) changes its sign with it among the features.
+///   h^l = h^(l−1) + tanh(A_l h^(l−1) + B_l M h^(l−1) + D_l S h^(l−1) + b_l),   l = 1 … L
+///   y = C h^L + c
+/// So an answer depends on the row, on L neighbours on either side, and on the front as a whole, whatever the number of its
+/// rows: how a crack opens at one place is a matter of its whole front. Both neighbours count alike: the sense of a front is
+/// arbitrary, and what has a sense (slopes) changes its sign with it among the features.
 class FrontNetwork {
  public:
   using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// @param features  F  @param width  of h  @param answers  of y
-  FrontNetwork(int features, int width, int answers);
+  /// @param features  F  @param width  of h  @param convolutions  L  @param answers  of y
+  FrontNetwork(int features, int width, int convolutions, int answers);
 
   /// Weights uniform within √(6/(inputs + outputs)) (Glorot & Bengio 2010), no offsets, the last layer all zero.
   void draw(Random& random);
 
-  /// All parameters in the order A₀ b₀ (A_l B_l b_l)… C c, matrices column by column.
+  /// All parameters in the order A₀ b₀ (A_l B_l D_l b_l)… C c, matrices column by column.
   std::vector<float>& parameters() { return parameters_; }
   const std::vector<float>& parameters() const { return parameters_; }
 
   /// Answers for rows side by side (F × n): answers × n. Column after column by itself, so that the answer of a row has
-  /// the same bits whatever else is asked, as long as its two neighbours on either side are there.
+  /// the same bits whatever else is asked, as long as its stretch is there.
   /// @param goes_on  per column, whether the next one is its neighbour
   Matrix answer(const Matrix& rows, const std::vector<char>& goes_on) const;
 
@@ -41,22 +42,20 @@ class FrontNetwork {
   void loss_gradient(const Matrix& rows, const std::vector<char>& goes_on, const Matrix& wanted,
                      std::vector<float>& gradient) const;
 
-  static constexpr int kConvolutions = 2;
   static constexpr float kLinear = 0.5F;  // × deviation of the label
 
  private:
   struct Layer {
-    Eigen::Index own, neighbours, offset;  ///< where A, B and b begin; no B: −1
-    Eigen::Index rows, columns;            ///< of A
+    Eigen::Index own, neighbours, stretch, offset;  ///< where A, B, D and b begin; no B, no D: −1
+    Eigen::Index rows, columns;                     ///< of A
   };
-  /// What the layers pass on: per layer but the last h, its tanh and what neighbours gave it; y at the end.
+  /// What the layers pass on: per layer but the last h, its tanh, and what neighbours and the stretch gave it; y at the end.
   struct Passed {
-    std::vector<Matrix> h, squashed, mean;
+    std::vector<Matrix> h, squashed, neighbours, stretch;
     Matrix answer;
   };
   Passed pass(const Matrix& rows, const std::vector<char>& goes_on) const;
-  Eigen::Map<const Matrix> own(const Layer& layer) const;
-  Eigen::Map<const Matrix> neighbours(const Layer& layer) const;
+  Eigen::Map<const Matrix> weights(const Layer& layer, Eigen::Index begin) const;
   Eigen::Map<const Eigen::VectorXf> offset(const Layer& layer) const;
 
   std::vector<Layer> layers_;  // first, convolutions, last

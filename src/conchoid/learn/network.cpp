@@ -9,6 +9,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "conchoid/core/blas_threads.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/learn/members.hpp"
@@ -22,7 +23,7 @@ namespace {
 using nlohmann::json;
 using Matrix = FrontNetwork::Matrix;
 
-constexpr int kWidest = 1024;
+constexpr int kMost = 64, kWidest = 1024, kDeepest = 16;
 
 }  // namespace
 
@@ -44,7 +45,7 @@ Network Network::train(const SampleSet& samples, FeatureSet features, const Netw
   Network result(data.record, settings);
   result.features_ = TermBasis(data.rows, 1);
   const std::size_t n = data.rows.rows();
-  RunGroups groups = run_groups(data.run, kMembers);
+  RunGroups groups = run_groups(data.run, settings.members);
   NetworkData fitted{result.standardised(data.rows, 0, n), Matrix(3, n), {}, std::move(groups.of_row)};
   for (std::size_t i = 0; i < n; ++i) {
     fitted.goes_on.push_back(data.rows.goes_on(i));
@@ -52,13 +53,14 @@ Network Network::train(const SampleSet& samples, FeatureSet features, const Netw
       fitted.wanted(static_cast<Eigen::Index>(mode), static_cast<Eigen::Index>(i)) =
           static_cast<float>(data.labels[mode][i]);
   }
-  result.members_.assign(static_cast<std::size_t>(groups.count), FrontNetwork(1, 1, 1));
+  result.members_.assign(static_cast<std::size_t>(groups.count), FrontNetwork(1, 1, 1, 1));
   std::mutex mutex;
   int done = 0;
   const auto step = [&] {
     const std::lock_guard lock(mutex);
     if (progress) progress(++done, groups.count * settings.epochs);
   };
+  const OneBlasThread one_blas_thread;
   parallel_for(result.members_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t member = begin; member < end; ++member)
       result.members_[member] =
@@ -69,11 +71,11 @@ Network Network::train(const SampleSet& samples, FeatureSet features, const Netw
 
 void Network::predict_standardised(const FeatureMatrix& rows, std::size_t begin, std::size_t end,
                                    std::span<Prediction> out) const {
-  std::size_t first = begin, last = end;  // with the neighbours that they are asked with
-  for (int l = 0; l < FrontNetwork::kConvolutions; ++l) {
-    if (first > 0 && rows.goes_on(first - 1)) --first;
-    if (last < rows.rows() && rows.goes_on(last - 1)) ++last;
-  }
+  std::size_t first = begin, last = end;  // whole stretches
+  while (first > 0 && rows.goes_on(first - 1))
+    --first;
+  while (last < rows.rows() && rows.goes_on(last - 1))
+    ++last;
   const Matrix columns = standardised(rows, first, last);
   std::vector<char> goes_on;
   for (std::size_t i = first; i < last; ++i)
@@ -94,10 +96,9 @@ void Network::predict_standardised(const FeatureMatrix& rows, std::size_t begin,
 }
 
 std::string Network::settings_json() const {
-  return json{{"width", settings_.width},
-              {"epochs", settings_.epochs},
-              {"rate", settings_.rate},
-              {"seed", settings_.seed}}
+  return json{
+      {"members", settings_.members}, {"width", settings_.width}, {"convolutions", settings_.convolutions},
+      {"epochs", settings_.epochs},   {"rate", settings_.rate},   {"seed", settings_.seed}}
       .dump();
 }
 
@@ -106,7 +107,8 @@ std::string Network::fit_json() const {
 }
 
 std::string Network::summary() const {
-  return fmt::format("networks    {} of width {}, {} parameters each", members_.size(), settings_.width,
+  return fmt::format("networks    {} of width {}, {} convolutions along the front, {} parameters each",
+                     members_.size(), settings_.width, settings_.convolutions,
                      members_.front().parameters().size());
 }
 
@@ -120,16 +122,23 @@ void Network::write_fit(ByteWriter& out) const {
 std::unique_ptr<Regressor> Network::read(TrainingRecord record, const std::string& settings,
                                          ByteReader& fit) {
   const json d = json::parse(settings);
-  const NetworkSettings s{d.at("width"), d.at("epochs"), d.at("rate"), d.at("seed")};
+  if (!d.contains("convolutions"))
+    throw InputError(
+        "its networks do not look along the whole front, as earlier versions wrote them; train it again with "
+        "`conchoid forest train --model network`");
+  const NetworkSettings s{d.at("members"), d.at("width"), d.at("convolutions"),
+                          d.at("epochs"),  d.at("rate"),  d.at("seed")};
   if (s.width < 1 || s.width > kWidest) throw InputError("its width is wrong");
+  if (s.convolutions < 1 || s.convolutions > kDeepest)
+    throw InputError("its number of convolutions is wrong");
   auto result = std::make_unique<Network>(Network(std::move(record), s));
   const std::size_t features = result->ranges().size();
   result->features_ = TermBasis::read(fit, features, 1);
   const auto count = fit.get<std::uint32_t>();
-  if (count != 1 && count != kMembers) throw InputError("the number of members is wrong");
+  if (count != 1 && static_cast<int>(count) != s.members) throw InputError("the number of members is wrong");
   const auto finite = [](auto x) { return std::isfinite(x); };
   for (std::uint32_t i = 0; i < count; ++i) {
-    FrontNetwork member(static_cast<int>(features), s.width, 3);
+    FrontNetwork member(static_cast<int>(features), s.width, s.convolutions, 3);
     member.parameters() = fit.get_all<float>(member.parameters().size());
     if (!std::all_of(member.parameters().begin(), member.parameters().end(), finite))
       throw InputError("a parameter is not finite");
@@ -144,14 +153,20 @@ RegressorKind network_kind() {
   kind.name = "network";
   kind.title = "set of networks";
   kind.magic = "CNCHNETW";
-  kind.options = {{"width", "numbers per front point in the hidden layers", standard.width, 1, kWidest, true},
+  kind.options = {{"members", "networks, each fitted without one of as many groups of runs", standard.members,
+                   1, kMost, true},
+                  {"width", "numbers per front point in the hidden layers", standard.width, 1, kWidest, true},
+                  {"convolutions", "along the front: so many neighbours on either side count",
+                   standard.convolutions, 1, kDeepest, true},
                   {"epochs", "times that all samples are looked at", standard.epochs, 1, 10000, true},
                   {"rate", "of learning, at the beginning", standard.rate, 1e-6, 1, false}};
   kind.train = [](const SampleSet& samples, const TrainingSettings& wanted, Provenance provenance,
                   const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
     const RegressorKind& own = regressor_kind("network");
     NetworkSettings settings;
+    settings.members = static_cast<int>(option_value(own, wanted, "members").value());
     settings.width = static_cast<int>(option_value(own, wanted, "width").value());
+    settings.convolutions = static_cast<int>(option_value(own, wanted, "convolutions").value());
     settings.epochs = static_cast<int>(option_value(own, wanted, "epochs").value());
     settings.rate = option_value(own, wanted, "rate").value();
     settings.seed = wanted.seed;

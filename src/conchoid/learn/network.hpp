@@ -12,7 +12,7 @@ namespace conchoid {
 
 struct RegressorKind;
 
-/// Small networks with convolution along the front (front_network.hpp): kMembers of them, each fitted to all groups of
+/// Small networks with convolution along the front (front_network.hpp), each fitted to all groups of
 /// runs but one (run_groups.hpp), the three modes together. Mean and spread of their answers: members.hpp. Features are
 /// standardised, and no farther than kFarthest deviations from their mean.
 class Network : public Regressor {

@@ -110,7 +110,7 @@ FrontNetwork fit_network(const NetworkData& data, int left_out, const NetworkSet
   std::vector<Stretch> learned = stretches(data, [&](int g) { return g != left_out; });
   const std::vector<Stretch> judged = stretches(data, [&](int g) { return g == left_out; });
   Random random(settings.seed, static_cast<std::uint64_t>(left_out + 1));
-  FrontNetwork network(static_cast<int>(data.rows.rows()), settings.width,
+  FrontNetwork network(static_cast<int>(data.rows.rows()), settings.width, settings.convolutions,
                        static_cast<int>(data.wanted.rows()));
   network.draw(random);
   FrontNetwork best = network;
