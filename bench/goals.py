@@ -131,8 +131,27 @@ class Goals:
             if not self.wanted(name):
                 continue
             for pairs, said in ((case, "single layer, one core, to 1e-6"), (case + "_of_cracks", "to 1e-4, as with cracks")):
-                _, out = seconds([self.bench, f"--benchmark_filter=single_layer/{pairs}/", "--benchmark_format=json"], self.folder)
-                self.row(name, goal, 1e6 / json.loads(out)["benchmarks"][0]["pairs_per_s"], "µs", said)
+                self.row(name, goal, 1e6 / self.benchmark(f"single_layer/{pairs}/")["pairs_per_s"], "µs", said)
+
+    def benchmark(self, name):
+        """What conchoid_bench says of one benchmark."""
+        _, out = seconds([self.bench, f"--benchmark_filter={name}", "--benchmark_format=json"], self.folder)
+        return json.loads(out)["benchmarks"][0]
+
+    def training(self):
+        for trees, depth, goal in ((50, 10, 25), (25, 15, 80)):
+            name = f"training three forests ({trees}, {depth})"
+            if self.wanted(name):
+                c = self.unit()
+                taken = self.benchmark(f"training_on_a_million/{trees}/{depth}/")["fast_ms"] / 1e3
+                self.row(name, goal, taken / c, "c", f"c {c:.3f} s; a million samples, {taken:.1f} s")
+
+    def front_points(self):
+        for kind in range(4):
+            name = "prediction of 1,000 front points"
+            if self.wanted(name):
+                of_kind = self.benchmark(f"kinds/{kind}/")
+                self.row(name, 1, of_kind["fast_ms"], "ms", of_kind["label"] + ", without its features")
 
 
 def main():
@@ -165,6 +184,8 @@ def main():
             command = ["bash", "-c", f"rm -rf part.h5*; '{goals.conchoid}' database generate spec.toml --runs {runs} --out part.h5 "
                        "--quiet --json --threads 2"]
             goals.timed("database of 7,502 runs", 200, command, lambda out: f"from {runs} runs", share=runs / 7502)
+        goals.training()
+        goals.front_points()
         if goals.wanted("help"):
             best = min(seconds([goals.conchoid, "help"], folder)[0] for _ in range(20))
             goals.row("help", 10, 1e3 * best, "ms")

@@ -10,13 +10,15 @@
 namespace conchoid::bench {
 namespace {
 
-// 10,000 samples: 100 runs of 10 frame pairs and 10 front nodes.
-SampleSet ten_thousand() {
+// Runs of 10 frame pairs and 10 front nodes: 100 samples each.
+SampleSet made_up(int runs) {
   SampleSet set;
-  for (int run = 0; run < 100; ++run)
+  for (int run = 0; run < runs; ++run)
     set.append(test::synthetic_run(run, 11, 10, 1.1, 0.5));
   return set;
 }
+
+SampleSet ten_thousand() { return made_up(100); }
 
 // Rows one by one and node by node, as the definition of a tree says.
 double walk(const RegressionTree& tree, const float* row) {
@@ -58,6 +60,21 @@ void training(benchmark::State& state) {
   state.counters["samples"] = static_cast<double>(samples.size());
   state.counters["ms_per_tree"] = 1e3 * t.fast / 150;
   state.counters["unexplained"] = left;
+}
+
+// Three forests of so many trees of such a depth of a million samples; beside it of a tenth of them (ratio: ideally 0.1).
+void training_on_a_million(benchmark::State& state) {
+  const SampleSet samples = made_up(10000);
+  std::vector<std::size_t> first(samples.size() / 10);
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const SampleSet tenth = samples.subset(first);
+  ForestSettings settings;
+  settings.trees = static_cast<int>(state.range(0));
+  settings.depth = static_cast<int>(state.range(1));
+  const auto train = [&](const SampleSet& on) {
+    return seconds([&] { benchmark::DoNotOptimize(RegressionForest::train(on, settings)); });
+  };
+  side_by_side(state, [&] { return train(samples); }, [&] { return train(tenth); });
 }
 
 // One forest of 50 trees of depth 10, evaluated side by side for many rows against walking row by row.
@@ -113,6 +130,12 @@ void kinds(benchmark::State& state) {
 
 BENCHMARK(kinds)->DenseRange(0, 3)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(training)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(training_on_a_million)
+    ->Args({50, 10})
+    ->Args({25, 15})
+    ->Iterations(1)
+    ->UseManualTime()
+    ->Unit(benchmark::kSecond);
 BENCHMARK(prediction)->Arg(100)->Arg(10000)->Iterations(20)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace conchoid::bench

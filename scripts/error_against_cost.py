@@ -86,7 +86,7 @@ def main():
             part.write_text(text + f"solve_every = {every}\n")
             folder = options.out / f"{size}-every-{every}"
             rows.append((f"kept, every {every}", folder, run(options.program, folder, part, ["--method", "kept"])))
-        sources = [("kept", [])] + ([("forest", ["--database", options.database])] if options.database else [])
+        sources = [("kept", ["--database", "none"])] + ([("forest", ["--database", options.database])] if options.database else [])
         for name, database in sources:
             for tolerance in filter(None, options.tolerances.split(",")):
                 folder = options.out / f"{size}-{name}-{tolerance}"

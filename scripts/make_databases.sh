@@ -26,6 +26,7 @@ for name in cube cylinder bar edge-crack armadillo; do
   done
   "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "$work/$name.forest"
   "$conchoid" forest train "$@" --features versatile --model boosted --trees 150 --depth 6 --rate 0.14 --out "$work/$name.boosted"
+  "$conchoid" forest train "$@" --features versatile --model network --out "$work/$name.network"
 done
 set -- "$work/world.h5" "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
 "$conchoid" forest train "$@" --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"

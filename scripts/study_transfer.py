@@ -4,11 +4,11 @@
   scripts/study_transfer.py CONCHOID WORK [--runs 30] [--only NAMES] [--studies NAMES] [--armadillo tests/data/armadillo.ply]
 
 WORK holds world.h5, cube.h5, cylinder.h5, bar.h5, world-unseen.h5 (scripts/make_databases.sh) and keeps regressors and results. For every class: a specification with
-another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest and boosted trees of all classes, by such trained
+another seed (fresh bodies, fresh loads), solved by boundary elements, by steady, kept and stress, by a forest, boosted trees and a network of all classes, by such trained
 without the class (and without its like: box and cube, rod and bar), and for cube, cylinder and bar by their own database; solved under small changes
 of the scene, and hybrid; and once more under 2.5 times the load. The study `own` is of bodies by databases of nothing else, under loads that these have not
-seen, by boosted trees; WORK then needs plate.boosted, of databases/plate.toml and trained as scripts/make_databases.sh trains those of one body. `worst` draws the
-runs of whole-runs that the forest without the class is farthest off on, into WORK/worst. `ablation` trains on world.h5 alone, without three classes, boosted
+seen, by networks and boosted trees; WORK then needs plate.network and plate.boosted, of databases/plate.toml and trained as scripts/make_databases.sh trains those
+of one body. `worst` draws the runs of whole-runs that the network without the class is farthest off on, into WORK/worst. `ablation` trains on world.h5 alone, without three classes, boosted
 trees that look at everything, at everything but one thing, at fewer runs, and other kinds of regressors, and compares their whole runs.
 """
 import argparse
@@ -22,7 +22,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ["box", "plate", "prism", "cylinder", "tube", "cup", "rod", "blob", "polyhedron"]
 LIKE = {"box": ["box", "cube"], "cube": ["box", "cube"], "rod": ["rod", "bar"], "bar": ["rod", "bar"]}
 MODELS = {"forest": ["--trees", "12", "--depth", "18", "--leaf", "8"],
-          "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"]}
+          "boosted": ["--model", "boosted", "--trees", "300", "--depth", "6", "--rate", "0.07"],
+          "network": ["--model", "network"]}
 # What boosted trees and others are trained without, or on (forest train's options), on the world alone.
 BOOSTED = MODELS["boosted"]
 WITHIN = "traction*,lateral*,stress_growth,S/(S+stress),pull*"
@@ -52,7 +53,7 @@ ABLATION = {"everything": BOOSTED,
             "forest (50, 10)": ["--trees", "50", "--depth", "10"],
             "forest (25, 15)": ["--trees", "25", "--depth", "15"],
             "ridge, squares and products": ["--model", "ridge", "--degree", "2"],
-            "network": ["--model", "network"]}
+            "network": MODELS["network"]}
 ABLATION_LEFT_OUT = ["box", "cylinder", "cup"]  # of the classes of the world, all at once
 STUDIES = ["whole-runs", "load", "noise", "own", "worst", "ablation"]
 WORST = 10
@@ -65,6 +66,8 @@ OWN = {"cube": ("cube", {}, 0), "cylinder": ("cylinder", {}, 0), "bar": ("bar", 
        "plate": ("plate", {"seed": "8"}, 960), "armadillo": ("armadillo", {}, 0),
        "cube layers": ("cube-layers", {}, 0), "cube grains": ("cube-grains", {}, 0),
        "cylinder layers": ("cylinder-layers", {}, 0), "cylinder grains": ("cylinder-grains", {}, 0)}
+OWN_KINDS = ["network", "boosted"]  # the first in full
+CLOSED = ["steady", "kept", "stress"]
 TOLERANCES = ["0.005", "0.01"]  # of hybrid runs
 LOAD = 2.5
 
@@ -98,7 +101,7 @@ def specification(name, runs, armadillo):
 
 
 def regressors(program, work, title, kinds, without=()):
-    """One file for each kind of model: TITLE.forest, TITLE.boosted; calibrated as those that ship, on the same classes."""
+    """One file for each kind of model: TITLE.forest and so on; calibrated as those that ship, on the same classes."""
     files = []
     for kind in kinds:
         files.append(work / f"{title}.{kind}")
@@ -122,8 +125,9 @@ def own_result(program, work, name, runs):
     database, changes, first = OWN[name]
     text = shipped_specification(database, first + runs, changes)
     body = database.removesuffix("-layers").removesuffix("-grains")
-    file = (work if body == "plate" else ROOT / "databases") / f"{body}.boosted"
-    return result_of_text(program, work, name, "own", runs, text, [file], "--first", first, "--tolerance", TOLERANCES[-1])
+    folder = work if body == "plate" else ROOT / "databases"
+    files = [folder / f"{body}.{kind}" for kind in OWN_KINDS]
+    return result_of_text(program, work, name, "own", runs, text, files, "--first", first, "--tolerance", TOLERANCES[-1])
 
 
 def specification_file(work, name, study, runs):
@@ -147,7 +151,7 @@ def files_for(program, work, name, kinds=tuple(MODELS)):
         like = LIKE.get(name, [name.split()[0]])
         files += regressors(program, work, "without-" + "-".join(like), kinds, like)
     if name in ("cube", "cylinder model", "bar"):
-        files.append(ROOT / "databases" / f"{name.split()[0]}.forest")
+        files.append(ROOT / "databases" / f"{name.split()[0]}.{OWN_KINDS[0]}")
     return files
 
 
@@ -160,7 +164,7 @@ def role_of(method, name):
         title = "left out"
     elif title in (name.split()[0], OWN.get(name, [""])[0]):
         title = "own"
-    return title + (" " + kind if title in ("all", "left out") else "") + hybrid + tolerance
+    return title + (" " + kind if kind else "") + hybrid + tolerance
 
 
 def quantile(ordered, share):
@@ -185,7 +189,7 @@ def table(results, columns):
             pooled.setdefault(role, {})[name, r["run"]] = r["surface_mean"]
             seconds.setdefault(role, []).append(r["opening_seconds"])
         print(f"| {name} | {max((s['runs'] for s in scores.values()), default=0)} | " + " | ".join(cell(scores.get(c)) for c in columns) + " |")
-    against = next((c for c in ("left out boosted", "left out forest") if c in pooled), None)
+    against = next((c for c in ("left out network", "left out boosted", "left out forest") if c in pooled), None)
     print("\n| all runs together | runs | median | 90 % | largest | openings over those solved | left out is nearer in |\n|---|---|---|---|---|---|---|")
     for role, runs in pooled.items():
         values, both = sorted(runs.values()), [k for k in runs if against and k in pooled[against]]
@@ -197,8 +201,10 @@ def table(results, columns):
 
 def own_table(results):
     """Of each body: the closed forms' medians, then what its own database is off by, and hybrid runs with it."""
-    columns = ["body", "runs", "steady, kept, stress", "median", "95 %", "largest", "frames within one", "at the frame limit", "openings",
-               f"hybrid {TOLERANCES[-1]}: median, 95 %, largest", "openings"]
+    first, hybrid = "own " + OWN_KINDS[0], f"own {OWN_KINDS[0]}, hybrid {TOLERANCES[-1]}"
+    others = [f"own {kind}" for kind in OWN_KINDS[1:]]
+    columns = ["body", "runs", "steady, kept, stress", *(f"{o[4:]}: median, 95 %, largest" for o in others), f"{OWN_KINDS[0]}: median", "95 %",
+               "largest", "frames within one", "at the frame limit", "openings", f"hybrid {TOLERANCES[-1]}: median, 95 %, largest", "openings"]
     print("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|")
     for name, result in results:
         runs = {}
@@ -213,12 +219,12 @@ def own_table(results):
             solved, made = (sum(s) for s in zip(*(r["opening_seconds"] for r in runs[role])))
             return [f"{statistics.median(off):.2f}", f"{quantile(off, 0.95):.2f}", f"{off[-1]:.1f}"], f"{made / solved:.2f}"
 
-        (own, openings), (hybrid, with_solved) = spread("own"), spread("own, hybrid " + TOLERANCES[-1])
-        near = sum(abs(r["frames"][0] - r["frames"][1]) <= 1 for r in runs["own"])
-        lost = sum(r["stop"] == "frame-limit" != r["solved_stop"] for r in runs["own"])
-        closed = ", ".join(f"{100 * statistics.median(r['surface_mean'] for r in runs[c]):.2f}" for c in ("steady", "kept", "stress"))
-        print(f"| {name} | {len(runs['own'])} | {closed} | " + " | ".join(own) + f" | {near} of {len(runs['own'])} | {lost} | {openings} | "
-              + ", ".join(hybrid) + f" | {with_solved} |", flush=True)
+        (own, openings), (with_hybrid, with_solved) = spread(first), spread(hybrid)
+        near = sum(abs(r["frames"][0] - r["frames"][1]) <= 1 for r in runs[first])
+        lost = sum(r["stop"] == "frame-limit" != r["solved_stop"] for r in runs[first])
+        row = [name, len(runs[first]), ", ".join(f"{100 * statistics.median(r['surface_mean'] for r in runs[c]):.2f}" for c in CLOSED),
+               *(", ".join(spread(o)[0]) for o in others), *own, f"{near} of {len(runs[first])}", lost, openings, ", ".join(with_hybrid), with_solved]
+        print("| " + " | ".join(map(str, row)) + " |", flush=True)
     print(flush=True)
 
 
@@ -277,18 +283,17 @@ def main():
     run = lambda study, count, files, *options: [
         (name, result_of(a.program, a.work, name, study, count, a.armadillo, files(name), *options)) for name in names]
     files = lambda name: files_for(a.program, a.work, name)
-    closed = ["steady", "kept", "stress"]
-    learned = [f"{where} {kind}" for where in ("all", "left out") for kind in MODELS] + ["own"]
+    learned = [f"{where} {kind}" for where in ("all", "left out") for kind in MODELS] + ["own " + OWN_KINDS[0]]
     studies = a.studies.split(",")
     if unknown := set(studies) - set(STUDIES):
         sys.exit(f"--studies {', '.join(sorted(unknown))}: not known; use some of {', '.join(STUDIES)}")
     few = (a.runs + 1) // 2
     if "whole-runs" in studies:
         print("Whole runs\n")
-        table(run("whole-runs", a.runs, files), closed + learned)
+        table(run("whole-runs", a.runs, files), CLOSED + learned)
     if "worst" in studies:
         print("The farthest off\n")
-        draw_worst(a.program, a.work, a.runs, run("whole-runs", a.runs, files), "left out forest", files)
+        draw_worst(a.program, a.work, a.runs, run("whole-runs", a.runs, files), "left out network", files)
     if "own" in studies:
         print("By their own databases, loads not seen\n")
         chosen = [n for n in a.only.split(",") if n in OWN] if a.only else OWN
@@ -298,13 +303,13 @@ def main():
         ablation_tables(a.program, a.work, few, a.armadillo)
     if "load" in studies:
         print(f"Load x {LOAD}\n")
-        table(run("load", few, files, "--load", LOAD), closed + learned)
+        table(run("load", few, files, "--load", LOAD), CLOSED + learned)
     if "noise" in studies:
-        print("Small changes of what is solved, and hybrid runs with boosted trees that the class is left out of\n")
-        left_out = lambda name: [f for f in files_for(a.program, a.work, name, ["boosted"]) if f.suffix == ".boosted"][-1:]
+        print("Small changes of what is solved, and hybrid runs with a network that the class is left out of\n")
+        left_out = lambda name: [f for f in files_for(a.program, a.work, name, ["network"]) if f.parent == a.work][-1:]
         changes = ["load + 0.5 %", "load turned 0.5 deg", "edge + 10 %", "elements + 10 %"]
         table(run("noise", few, left_out, "--noise-floor", "--tolerance", ",".join(TOLERANCES)),
-              [f"solved, {c}" for c in changes] + ["left out boosted"] + [f"left out boosted, hybrid {t}" for t in TOLERANCES])
+              [f"solved, {c}" for c in changes] + ["left out network"] + [f"left out network, hybrid {t}" for t in TOLERANCES])
 
 
 if __name__ == "__main__":

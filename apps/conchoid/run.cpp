@@ -19,6 +19,9 @@
 namespace conchoid {
 namespace {
 
+/// In place of a database: hybrid runs then go by a closed form.
+constexpr std::string_view kNoDatabase = "none";
+
 struct RunCommand {
   std::string scene, method = "bem", database, out, cache, solver = body_solver_names().front();
   std::vector<std::string> formats;  ///< empty: the scene's
@@ -109,9 +112,10 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   if (command.resume && command.out.empty()) throw InputError("--resume needs the run folder: add --out DIR");
   std::unique_ptr<Regressor> regressor;
   std::string database = command.database;
-  const std::string_view kind = opening_method(command.method).regressor;
-  if (database.empty()) database = standard_database(kind);
-  if (!database.empty()) regressor = load_regressor(database_file(database, kind));
+  const OpeningMethod& method = opening_method(command.method);
+  if (database.empty()) database = standard_database(method.shipped);
+  if (method.hybrid && database == kNoDatabase) database.clear();
+  if (!database.empty()) regressor = load_regressor(database_file(database, method.shipped));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor, options.tolerance);
   const PreparedRun run = run_of(command);
@@ -157,10 +161,11 @@ void add_run(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   command->add_option(
       "--database", options->database,
-      fmt::format("for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
-                  "forest train; a name without a kind is of the kind of the method; without it forest, "
-                  "boosted and network take {}",
-                  trained, fmt::join(shipped_names(), ", "), standard_database("forest")));
+      fmt::format(
+          "for --method hybrid or {}: {}, which come with conchoid, or a file written by conchoid "
+          "forest train; a name without a kind is of the kind of the method, of networks for hybrid; "
+          "without it forest, boosted, network and hybrid take {}; hybrid with {} predicts as kept does",
+          trained, fmt::join(shipped_names(), ", "), standard_database("forest"), kNoDatabase));
   command
       ->add_option("--tolerance", options->tolerance,
                    "of --method hybrid: error that is to be expected of the crack surface at most, over the "

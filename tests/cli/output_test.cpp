@@ -235,6 +235,21 @@ TEST(Prediction, AForestForAnyBodyIsInspectedByAScene) {
     }
 }
 
+TEST(Prediction, HybridTakesTheNetworksThatComeWithTheProgramAndKeptWhereNoneIsWanted) {
+  const TemporaryFolder folder;
+  folder.write("cube.toml", kPulledCube);
+  const auto hash_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all = {"run", "cube.toml", "--method"};
+    all.insert(all.end(), options.begin(), options.end());
+    return json_of(folder, all)["hash"];
+  };
+  const json by_networks = hash_of({"network"}), kept = hash_of({"kept"});
+  EXPECT_NE(by_networks, kept);
+  EXPECT_EQ(hash_of({"hybrid", "--tolerance", "inf"}), by_networks);
+  EXPECT_EQ(hash_of({"hybrid", "--tolerance", "inf", "--database", "versatile"}), by_networks);
+  EXPECT_EQ(hash_of({"hybrid", "--tolerance", "inf", "--database", "none"}), kept);
+}
+
 TEST(Prediction, FromSpecificationToPredictedRun) {
   const TemporaryFolder folder;
   folder.write("spec.toml", kSpec);

@@ -36,6 +36,7 @@ TEST(Shipped, TheStandardOneKnowsManyClassesOfBodies) {
 TEST(Shipped, ANameGivesTheKindThatAMethodNeeds) {
   EXPECT_EQ(database_file("cube", "boosted"), shipped_file("cube.boosted"));
   EXPECT_EQ(database_file("cube", "forest"), shipped_file("cube"));
+  EXPECT_EQ(database_file("cube", "network"), shipped_file("cube.network"));
   EXPECT_EQ(database_file("cube.boosted", "forest"), shipped_file("cube.boosted"));
   EXPECT_EQ(database_file("cube"), shipped_file("cube"));
 }

@@ -24,27 +24,21 @@ std::vector<fs::path> folders() {
 
 std::string known_names() {
   std::string names;
-  for (const std::string_view name : shipped_names())
-    names += (names.empty() ? "" : ", ") + std::string(name);
+  for (const std::string& name : shipped_names())
+    names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
 }  // namespace
 
-const std::vector<std::string_view>& shipped_names() {
-  static const std::vector<std::string_view> names = {"cube",
-                                                      "cylinder",
-                                                      "bar",
-                                                      "edge-crack",
-                                                      "armadillo",
-                                                      "versatile",
-                                                      "cube.boosted",
-                                                      "cylinder.boosted",
-                                                      "bar.boosted",
-                                                      "edge-crack.boosted",
-                                                      "armadillo.boosted",
-                                                      "versatile.boosted",
-                                                      "versatile.network"};
+const std::vector<std::string>& shipped_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const char* kind : {"", ".boosted", ".network"})  // a name alone is a forest's
+      for (const char* trained_on : {"cube", "cylinder", "bar", "edge-crack", "armadillo", "versatile"})
+        all.push_back(std::string(trained_on) + kind);
+    return all;
+  }();
   return names;
 }
 

@@ -8,11 +8,11 @@
 namespace conchoid {
 
 /// Regressors that come with the program, by name, each a file in the folder databases/, NAME.forest where the name tells
-/// no kind; NAME.boosted are boosted trees of the same samples, versatile.network networks:
+/// no kind; NAME.boosted are boosted trees of the same samples, NAME.network networks:
 ///   cube, cylinder, bar, edge-crack, armadillo   of one body each, under random loads
 ///   versatile                                    of many classes of bodies: for any scene
 /// How they were made: databases/README.md, scripts/make_databases.sh.
-const std::vector<std::string_view>& shipped_names();
+const std::vector<std::string>& shipped_names();
 
 /// Which of them a method takes that needs a regressor of that kind, where no database is named; empty: none.
 std::string_view standard_database(std::string_view kind);
