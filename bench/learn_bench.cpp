@@ -18,7 +18,9 @@ SampleSet made_up(int runs) {
   return set;
 }
 
-SampleSet ten_thousand() { return made_up(100); }
+SampleSet ten_thousand() {
+  return made_up(100);
+}
 
 // Rows one by one and node by node, as the definition of a tree says.
 double walk(const RegressionTree& tree, const float* row) {
@@ -74,7 +76,8 @@ void training_on_a_million(benchmark::State& state) {
   const auto train = [&](const SampleSet& on) {
     return seconds([&] { benchmark::DoNotOptimize(RegressionForest::train(on, settings)); });
   };
-  side_by_side(state, [&] { return train(samples); }, [&] { return train(tenth); });
+  side_by_side(
+      state, [&] { return train(samples); }, [&] { return train(tenth); });
 }
 
 // One forest of 50 trees of depth 10, evaluated side by side for many rows against walking row by row.

@@ -19,9 +19,10 @@ TEST(Shipped, EveryDatabaseIsFoundByNameAndReads) {
     EXPECT_EQ(regressor->feature_set(), FeatureSet::versatile) << name;
     EXPECT_GT(regressor->provenance().runs, 20u) << name;
     EXPECT_FALSE(regressor->provenance().spec.empty()) << name;
+    EXPECT_LT(std::filesystem::file_size(file), std::uintmax_t{5} << 20) << name;
     bytes += std::filesystem::file_size(file);
   }
-  EXPECT_LT(bytes, std::uintmax_t{20} << 20);
+  EXPECT_LT(bytes, std::uintmax_t{30} << 20);
 }
 
 TEST(Shipped, TheStandardOneKnowsManyClassesOfBodies) {

@@ -69,9 +69,12 @@ TEST(ExpectedError, GrowsWithTheSquareOfTheFramesPredicted) {
   for (int n = 0; n < 4; ++n) {
     const double before = distance;
     distance += kEdge * std::sin((n + 1) * s);
-    EXPECT_NEAR(error.of_next_front(front(n), predicted), distance / kDiagonal, 1e-15);
-    error.advance_predicted(front(n), predicted);
+    EXPECT_NEAR(error.at_the_end(front(n), predicted, 1), distance / kDiagonal, 1e-15);
     sum += 0.5 * (before + distance) / kDiagonal;
+    EXPECT_NEAR(error.at_the_end(front(n), predicted, 0), sum / (n + 1), 1e-15);
+    EXPECT_NEAR(error.at_the_end(front(n), predicted, 0.3), 0.7 * sum / (n + 1) + 0.3 * distance / kDiagonal,
+                1e-15);
+    error.advance_predicted(front(n), predicted);
     EXPECT_NEAR(error.of_surface(), sum / (n + 1), 1e-15);
   }
 }
@@ -86,7 +89,7 @@ TEST(ExpectedError, ScatterWalks) {
   for (int n = 0; n < 6; ++n) {
     squares += (n + 1) * (n + 1);
     const double distance = kEdge * s * std::sqrt(squares);
-    EXPECT_NEAR(error.of_next_front(front(n), openings(K, spread)) * kDiagonal / distance, 1, 1e-3) << n;
+    EXPECT_NEAR(error.at_the_end(front(n), openings(K, spread), 1) * kDiagonal / distance, 1, 1e-3) << n;
     error.advance_predicted(front(n), openings(K, spread));
   }
 }
@@ -103,21 +106,21 @@ TEST(ExpectedError, APointThatStaysAddsNothingByStaying) {
   ExpectedError error(kMaterial, kDiagonal, kEdge);
   const auto predicted = openings(turning(0.01));
   error.advance_predicted(front(0), predicted);
-  const double once = error.of_next_front(front(0), predicted);
+  const double once = error.at_the_end(front(0), predicted, 1);
   error.advance_predicted(front(0), predicted);
-  EXPECT_EQ(error.of_next_front(front(0), predicted), once);
+  EXPECT_EQ(error.at_the_end(front(0), predicted, 1), once);
 }
 
 TEST(ExpectedError, ASolvedFrameTurnsTheCrackBackFromWhereItIs) {
   ExpectedError error(kMaterial, kDiagonal, kEdge);
   const auto predicted = openings(turning(0.02));
-  const double step = error.of_next_front(front(0), predicted);
+  const double step = error.at_the_end(front(0), predicted, 1);
   error.advance_predicted(front(0), predicted);
   error.advance_solved(front(1), predicted, {});
   const double surface = error.of_surface();
   EXPECT_NEAR(surface, (0.5 * step + step) / 2, 1e-15);
   // The next stretch begins anew, and adds in quadrature.
-  EXPECT_NEAR(error.of_next_front(front(2), predicted), std::sqrt(2.0) * step, 1e-15);
+  EXPECT_NEAR(error.at_the_end(front(2), predicted, 1), std::sqrt(2.0) * step, 1e-15);
 }
 
 TEST(ExpectedError, TakesItsScaleFromFramesThatWereSolvedToo) {

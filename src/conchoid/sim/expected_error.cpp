@@ -63,12 +63,16 @@ std::vector<ExpectedError::Advance> ExpectedError::predicted_advances(
   return advances;
 }
 
-double ExpectedError::of_next_front(const CrackState& crack,
-                                    const std::vector<FrontOpening>& predicted) const {
-  double sum = 0;
-  for (const Advance& a : predicted_advances(crack, predicted))
-    sum += a.after.distance();
-  return crack.points.empty() ? 0 : sum / static_cast<double>(crack.points.size()) / diagonal_;
+double ExpectedError::at_the_end(const CrackState& crack, const std::vector<FrontOpening>& predicted,
+                                 double left) const {
+  if (crack.points.empty()) return of_surface();
+  const auto n = static_cast<double>(crack.points.size());
+  double front = 0, made = sum_;
+  for (const Advance& a : predicted_advances(crack, predicted)) {
+    front += a.after.distance() / n;
+    made += a.of_strip();
+  }
+  return ((1 - left) * made / (points_ + n) + left * front) / diagonal_;
 }
 
 void ExpectedError::advance(const CrackState& crack, const std::vector<Advance>& advances) {

@@ -51,9 +51,9 @@ class ExpectedError {
         scale_(statement.first_scale),
         compared_(statement.is_compared) {}
 
-  /// Mean of d along the front that the crack would have, if it advanced by these predictions. Strips that follow
-  /// are off by that much at least.
-  double of_next_front(const CrackState& crack, const std::vector<FrontOpening>& predicted) const;
+  /// Of the whole surface in the end, if the crack advanced by these predictions and what is `left` of the surface then,
+  /// 0 … 1, were off by as much as the front, which strips that follow are at least. 1: the mean of d along that front.
+  double at_the_end(const CrackState& crack, const std::vector<FrontOpening>& predicted, double left) const;
   /// The crack advances by these predictions.
   void advance_predicted(const CrackState& crack, const std::vector<FrontOpening>& predicted);
   /// The crack advances as solved. @param predicted  for the same front; empty: nothing was predicted

@@ -62,7 +62,7 @@ bool PredictedOpening::any_moves(const CrackState& crack, const std::vector<Fron
 
 bool PredictedOpening::is_good(const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
   if (!looks()) return true;
-  return error_.of_next_front(crack, predicted) <= *tolerance_ && any_moves(crack, predicted);
+  return error_.at_the_end(crack, predicted, share_left()) <= *tolerance_ && any_moves(crack, predicted);
 }
 
 std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
@@ -110,6 +110,10 @@ OpeningByPredictor::OpeningByPredictor(const PredictionContext& c, const Opening
 
 void OpeningByPredictor::look_at(const CrackState& crack) {
   if (surroundings_) surroundings_->measure(crack, bem().body().load(), bem().loads());
+}
+
+double OpeningByPredictor::share_left() const {
+  return surroundings_ ? surroundings_->ligament_share() : 1;
 }
 
 void OpeningByPredictor::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
