@@ -24,8 +24,9 @@ struct OpeningMethod {
   std::string title;      ///< of a picture of such a run
   std::string help;       ///< half a sentence
   std::string regressor;  ///< kind of regressor (learn/regressor_kinds.hpp) that it needs; empty: none
-  std::string shipped;    ///< kind of the regressors that come with the program (learn/shipped.hpp) that it takes
-  bool hybrid = false;    ///< takes a tolerance, and a regressor of any kind or none
+  std::string
+      shipped;  ///< kind of the regressors that come with the program (learn/shipped.hpp) that it takes
+  bool hybrid = false;  ///< takes a tolerance, and a regressor of any kind or none
   /// Predicts without training: `forest evaluate` reports it beside a regressor. May be null.
   const OpeningPredictor* baseline = nullptr;
   /// Null where the boundary elements of the context solve every frame.
