@@ -131,27 +131,25 @@ class Goals:
             if not self.wanted(name):
                 continue
             for pairs, said in ((case, "single layer, one core, to 1e-6"), (case + "_of_cracks", "to 1e-4, as with cracks")):
-                self.row(name, goal, 1e6 / self.benchmark(f"single_layer/{pairs}/")["pairs_per_s"], "µs", said)
+                self.row(name, goal, 1e6 / self.benchmarks(f"single_layer/{pairs}/")[0]["pairs_per_s"], "µs", said)
 
-    def benchmark(self, name):
-        """What conchoid_bench says of one benchmark."""
+    def benchmarks(self, name):
+        """What conchoid_bench says of the benchmarks of that name."""
         _, out = seconds([self.bench, f"--benchmark_filter={name}", "--benchmark_format=json"], self.folder)
-        return json.loads(out)["benchmarks"][0]
+        return json.loads(out)["benchmarks"]
 
     def training(self):
         for trees, depth, goal in ((50, 10, 25), (25, 15, 80)):
             name = f"training three forests ({trees}, {depth})"
             if self.wanted(name):
                 c = self.unit()
-                taken = self.benchmark(f"training_on_a_million/{trees}/{depth}/")["fast_ms"] / 1e3
+                taken = self.benchmarks(f"training_on_a_million/{trees}/{depth}/")[0]["fast_ms"] / 1e3
                 self.row(name, goal, taken / c, "c", f"c {c:.3f} s; a million samples, {taken:.1f} s")
 
     def front_points(self):
-        for kind in range(4):
-            name = "prediction of 1,000 front points"
-            if self.wanted(name):
-                of_kind = self.benchmark(f"kinds/{kind}/")
-                self.row(name, 1, of_kind["fast_ms"], "ms", of_kind["label"] + ", without its features")
+        name = "prediction of 1,000 front points"
+        for of_kind in self.benchmarks("kinds/") if self.wanted(name) else []:
+            self.row(name, 1, of_kind["fast_ms"], "ms", of_kind["label"] + ", without its features")
 
 
 def main():

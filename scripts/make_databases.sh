@@ -37,7 +37,6 @@ for name in cube cylinder bar edge-crack armadillo versatile; do
   unseen=$work/$name-unseen.h5
   if [ $name = versatile ]; then unseen=$work/world-unseen.h5; fi
   for kind in forest boosted network; do
-    if [ ! -e "$work/$name.$kind" ]; then continue; fi
     "$conchoid" forest calibrate "$work/$name.$kind" "$unseen" --out "databases/$name.$kind"
   done
 done

@@ -189,7 +189,7 @@ def table(results, columns):
             pooled.setdefault(role, {})[name, r["run"]] = r["surface_mean"]
             seconds.setdefault(role, []).append(r["opening_seconds"])
         print(f"| {name} | {max((s['runs'] for s in scores.values()), default=0)} | " + " | ".join(cell(scores.get(c)) for c in columns) + " |")
-    against = next((c for c in ("left out network", "left out boosted", "left out forest") if c in pooled), None)
+    against = next((f"left out {kind}" for kind in reversed(MODELS) if f"left out {kind}" in pooled), None)
     print("\n| all runs together | runs | median | 90 % | largest | openings over those solved | left out is nearer in |\n|---|---|---|---|---|---|---|")
     for role, runs in pooled.items():
         values, both = sorted(runs.values()), [k for k in runs if against and k in pooled[against]]

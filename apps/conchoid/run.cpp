@@ -113,9 +113,9 @@ void run_and_print(const RunCommand& command, const CommonOptions& common) {
   std::unique_ptr<Regressor> regressor;
   std::string database = command.database;
   const OpeningMethod& method = opening_method(command.method);
-  if (database.empty()) database = standard_database(method.shipped);
+  if (database.empty()) database = standard_database(method.shipped_kind());
   if (method.hybrid && database == kNoDatabase) database.clear();
-  if (!database.empty()) regressor = load_regressor(database_file(database, method.shipped));
+  if (!database.empty()) regressor = load_regressor(database_file(database, method.shipped_kind()));
   options.regressor = regressor.get();
   checked_method(options.method, options.regressor, options.tolerance);
   const PreparedRun run = run_of(command);

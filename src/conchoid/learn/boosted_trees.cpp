@@ -130,10 +130,10 @@ RegressorKind boosted_kind() {
                   const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
     const RegressorKind& own = regressor_kind("boosted");
     BoostingSettings settings;
-    settings.trees = static_cast<int>(option_value(own, wanted, "trees").value());
-    settings.depth = static_cast<int>(option_value(own, wanted, "depth").value());
+    settings.trees = whole_option_value(own, wanted, "trees");
+    settings.depth = whole_option_value(own, wanted, "depth");
     settings.rate = option_value(own, wanted, "rate").value();
-    settings.leaf = static_cast<int>(option_value(own, wanted, "leaf").value());
+    settings.leaf = whole_option_value(own, wanted, "leaf");
     return std::make_unique<BoostedTrees>(
         BoostedTrees::train(samples, wanted.features, settings, std::move(provenance), progress));
   };

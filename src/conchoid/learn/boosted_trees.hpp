@@ -38,6 +38,8 @@ class BoostedTrees : public Regressor {
     return members_[static_cast<std::size_t>(mode)];
   }
 
+  static constexpr int kMembers = 4;
+
  protected:
   void predict_standardised(const FeatureMatrix& rows, std::size_t begin, std::size_t end,
                             std::span<Prediction> out) const override;

@@ -74,9 +74,9 @@ RegressorKind forest_kind() {
                   const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
     const RegressorKind& own = regressor_kind("forest");
     ForestSettings settings;
-    settings.trees = static_cast<int>(option_value(own, wanted, "trees").value());
-    settings.depth = static_cast<int>(option_value(own, wanted, "depth").value());
-    settings.leaf = static_cast<int>(option_value(own, wanted, "leaf").value());
+    settings.trees = whole_option_value(own, wanted, "trees");
+    settings.depth = whole_option_value(own, wanted, "depth");
+    settings.leaf = whole_option_value(own, wanted, "leaf");
     settings.features = wanted.features;
     settings.seed = wanted.seed;
     return std::make_unique<RegressionForest>(

@@ -164,10 +164,10 @@ RegressorKind network_kind() {
                   const TrainingProgress& progress) -> std::unique_ptr<Regressor> {
     const RegressorKind& own = regressor_kind("network");
     NetworkSettings settings;
-    settings.members = static_cast<int>(option_value(own, wanted, "members").value());
-    settings.width = static_cast<int>(option_value(own, wanted, "width").value());
-    settings.convolutions = static_cast<int>(option_value(own, wanted, "convolutions").value());
-    settings.epochs = static_cast<int>(option_value(own, wanted, "epochs").value());
+    settings.members = whole_option_value(own, wanted, "members");
+    settings.width = whole_option_value(own, wanted, "width");
+    settings.convolutions = whole_option_value(own, wanted, "convolutions");
+    settings.epochs = whole_option_value(own, wanted, "epochs");
     settings.rate = option_value(own, wanted, "rate").value();
     settings.seed = wanted.seed;
     return std::make_unique<Network>(

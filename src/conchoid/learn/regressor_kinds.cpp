@@ -84,4 +84,8 @@ std::optional<double> option_value(const RegressorKind& kind, const TrainingSett
   return given == settings.options.end() ? option->standard : std::optional(given->second);
 }
 
+int whole_option_value(const RegressorKind& kind, const TrainingSettings& settings, std::string_view name) {
+  return static_cast<int>(option_value(kind, settings, name).value());
+}
+
 }  // namespace conchoid

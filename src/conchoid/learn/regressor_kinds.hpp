@@ -58,5 +58,7 @@ std::unique_ptr<Regressor> train_regressor(const RegressorKind& kind, const Samp
 /// The value of an option of a kind, if it is given or has a standard value.
 std::optional<double> option_value(const RegressorKind& kind, const TrainingSettings& settings,
                                    std::string_view option);
+/// The same of one that is a whole number and has a standard value.
+int whole_option_value(const RegressorKind& kind, const TrainingSettings& settings, std::string_view option);
 
 }  // namespace conchoid

@@ -139,7 +139,7 @@ RegressorKind ridge_kind() {
     const RegressorKind& own = regressor_kind("ridge");
     RidgeSettings settings;
     settings.features = wanted.features;
-    settings.degree = static_cast<int>(option_value(own, wanted, "degree").value());
+    settings.degree = whole_option_value(own, wanted, "degree");
     settings.lambda = option_value(own, wanted, "lambda");
     return std::make_unique<RidgeRegression>(
         RidgeRegression::train(samples, settings, std::move(provenance)));

@@ -14,7 +14,4 @@ struct RunGroups {
 /// @param run  per row @param groups  wanted
 RunGroups run_groups(const std::vector<std::int32_t>& run, int groups);
 
-/// Members of an ensemble, each fitted to all groups but one.
-inline constexpr int kMembers = 4;
-
 }  // namespace conchoid

@@ -1,6 +1,7 @@
 #include "conchoid/learn/shipped.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "conchoid/core/error.hpp"
 
@@ -22,6 +23,8 @@ std::vector<fs::path> folders() {
   return all;
 }
 
+constexpr std::array kKinds = {"forest", "boosted", "network"};
+
 std::string known_names() {
   std::string names;
   for (const std::string& name : shipped_names())
@@ -34,16 +37,16 @@ std::string known_names() {
 const std::vector<std::string>& shipped_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const char* kind : {"", ".boosted", ".network"})  // a name alone is a forest's
+    for (const std::string kind : kKinds)
       for (const char* trained_on : {"cube", "cylinder", "bar", "edge-crack", "armadillo", "versatile"})
-        all.push_back(std::string(trained_on) + kind);
+        all.push_back(trained_on + (kind == "forest" ? "" : "." + kind));
     return all;
   }();
   return names;
 }
 
 std::string_view standard_database(std::string_view kind) {
-  return kind == "forest" || kind == "boosted" || kind == "network" ? "versatile" : "";
+  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end() ? "versatile" : "";
 }
 
 fs::path shipped_file(std::string_view name) {

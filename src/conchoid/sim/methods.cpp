@@ -25,7 +25,6 @@ OpeningMethod regressor_method(const RegressorKind& kind) {
           .title = fmt::format("predicted by a {}", kind.title),
           .help = fmt::format("solves frame 1, then predicts by a {}", kind.title),
           .regressor = std::string(kind.name),
-          .shipped = std::string(kind.name),
           .baseline = nullptr,
           .make = [](const MethodContext& c) { return predicted_by(*c.regressor, c); }};
 }
@@ -36,14 +35,12 @@ std::vector<OpeningMethod> list_methods() {
                      .title = "solved by boundary elements",
                      .help = "solves every frame",
                      .regressor = "",
-                     .shipped = "",
                      .baseline = nullptr,
                      .make = [](const MethodContext&) { return nullptr; }});
   methods.push_back({.name = "steady",
                      .title = "predicted, K stays as it is",
                      .help = "solves frame 1, then keeps K as it is",
                      .regressor = "",
-                     .shipped = "",
                      .baseline = &steady_predictor(),
                      .make = [](const MethodContext& c) { return predicted_by(steady_predictor(), c); }});
   methods.push_back(
@@ -51,7 +48,6 @@ std::vector<OpeningMethod> list_methods() {
        .title = "predicted, K stays as it is in the front's frame",
        .help = "solves frame 1, then keeps K as it is in the front's own frame",
        .regressor = "",
-       .shipped = "",
        .baseline = nullptr,
        .make = [](const MethodContext& c) { return std::make_unique<KeptOpening>(c.prediction); }});
   methods.push_back(
@@ -59,7 +55,6 @@ std::vector<OpeningMethod> list_methods() {
        .title = "predicted from the stress of the uncracked body",
        .help = "solves frame 1, then estimates K from the stress of the uncracked body and the crack's size",
        .regressor = "",
-       .shipped = "",
        .baseline = nullptr,
        .make = [](const MethodContext& c) { return std::make_unique<StressOpening>(c.prediction); }});
   methods.push_back({.name = "hybrid",
@@ -68,7 +63,6 @@ std::vector<OpeningMethod> list_methods() {
                          "predicts by the database, and solves the frames whose prediction would bring more "
                          "error than --tolerance",
                      .regressor = "",
-                     .shipped = "network",
                      .hybrid = true,
                      .baseline = nullptr,
                      .make = hybrid_source});

@@ -24,13 +24,14 @@ struct OpeningMethod {
   std::string title;      ///< of a picture of such a run
   std::string help;       ///< half a sentence
   std::string regressor;  ///< kind of regressor (learn/regressor_kinds.hpp) that it needs; empty: none
-  std::string
-      shipped;  ///< kind of the regressors that come with the program (learn/shipped.hpp) that it takes
-  bool hybrid = false;  ///< takes a tolerance, and a regressor of any kind or none
+  bool hybrid = false;    ///< takes a tolerance, and a regressor of any kind or none
   /// Predicts without training: `forest evaluate` reports it beside a regressor. May be null.
   const OpeningPredictor* baseline = nullptr;
   /// Null where the boundary elements of the context solve every frame.
   std::function<std::unique_ptr<OpeningSource>(const MethodContext&)> make;
+
+  /// Kind of the regressors that come with the program (learn/shipped.hpp) that it takes; empty: none.
+  std::string_view shipped_kind() const { return hybrid ? "network" : std::string_view(regressor); }
 };
 
 /// × the body's diagonal: the error of the surface that hybrid runs keep to where nothing else is said.

@@ -28,9 +28,8 @@ struct PredictionContext {
 /// With a tolerance X (methods "hybrid") a prediction is looked at first: the frame is solved if the whole surface
 /// would be expected farther than X from the solved one (ExpectedError) were what is left of it off by as much as the
 /// front that the prediction leads to, if no point of the front would move, or if X = 0. So the expected error of the
-/// surface keeps within X. X = 0 is
-/// the solution bit for bit, frames that cannot be solved among it: they are carried, not predicted. X = ∞ is the
-/// prediction.
+/// surface keeps within X. X = 0 is the solution bit for bit, frames that cannot be solved among it: they are carried, not
+/// predicted. X = ∞ is the prediction.
 class PredictedOpening : public OpeningSource {
  public:
   std::vector<FrontOpening> open(const CrackState& crack) final;
