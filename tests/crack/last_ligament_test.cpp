@@ -45,7 +45,12 @@ TEST(CellGrid, ItsCellsAreThoseWhoseCentresTheBodyWindsAround) {
     for (std::size_t c = 0; c < grid.cells(); ++c) {
       inside += grid.inside(c) ? 1 : 0;
       ASSERT_EQ(grid.inside(c), winding_number(body, grid.center(c)) > 0.5) << grid.center(c).transpose();
+      ASSERT_EQ(grid.number(c), grid.inside(c) ? static_cast<std::int32_t>(inside) - 1 : -1);
     }
+    ASSERT_EQ(grid.inside_cells().size(), inside);
+    for (std::size_t i = 0; i < inside; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        ASSERT_EQ(grid.inside_cells()[i].next[axis], grid.number(grid.next(grid.inside_cells()[i].cell, axis)));
     EXPECT_NEAR(static_cast<double>(inside) * std::pow(grid.size(), 3), enclosed_volume(body),
                 0.05 * enclosed_volume(body));
   }
@@ -73,7 +78,7 @@ TEST(CellGrid, ASheetStandsBetweenExactlyTheCellsItDivides) {
         const Vec3 at = (grid.center(c) * b - grid.center(d) * a) / (b - a);
         if (std::abs(at.dot(x) - 0.2) < 1e-9) continue;
         const bool between = a * b < 0 && at.dot(x) < 0.2;
-        ASSERT_EQ(grid.cracked(CellGrid::edge(c, axis)), between);
+        ASSERT_EQ(grid.cracked(c, axis), between);
         walls += between ? 1 : 0;
       }
     EXPECT_GT(walls, 100u);

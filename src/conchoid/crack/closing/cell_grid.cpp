@@ -3,7 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
+#include <tuple>
 
 namespace conchoid {
 namespace {
@@ -86,18 +89,16 @@ CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
   origin_ = size_ * (axes_ * low);
   step_ = {static_cast<std::size_t>(count_[1]) * count_[2], static_cast<std::size_t>(count_[2]), 1};
   inside_.assign(step_[0] * count_[0], 0);
-  wall_.assign(3 * inside_.size(), 0);
-  fill(body);
-  for (int axis = 0; axis < 3; ++axis) {
-    cross(body, axis, [&](std::size_t e, double, TriId, bool) { wall_[e] |= kSurface; });
-    cross(sheets, axis, [&](std::size_t e, double depth, TriId t, bool upwards) {
-      wall_[e] |= kSheet;
-      crossings_.push_back({e, depth, t, upwards});
-    });
-  }
-  std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
-    return std::tie(x.edge, x.depth, x.triangle) < std::tie(y.edge, y.depth, y.triangle);
-  });
+  wall_.assign(inside_.size(), 0);
+  stand_walls(body, sheets);
+  list_inside_cells();
+}
+
+std::int32_t CellGrid::number(std::size_t cell) const {
+  if (!inside(cell)) return -1;
+  const auto at = std::lower_bound(inside_cells_.begin(), inside_cells_.end(), cell,
+                                   [](const InsideCell& x, std::size_t c) { return x.cell < c; });
+  return static_cast<std::int32_t>(at - inside_cells_.begin());
 }
 
 std::array<int, 3> CellGrid::place(std::size_t cell) const {
@@ -132,14 +133,19 @@ void CellGrid::mark_near(const Vec3& place, double reach, std::vector<bool>& nea
   }
 }
 
-template <class Found>
-void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
-  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-  const bool right_handed = axes_.determinant() > 0;
+std::vector<Vec3> CellGrid::places(const TriMesh& mesh) const {
   std::vector<Vec3> local;
   local.reserve(mesh.node_count());
   for (const Vec3& x : mesh.positions)
-    local.push_back(axes_.transpose() * (x - origin_) / size_);
+    local.push_back(place_of(x));
+  return local;
+}
+
+template <class Found>
+void CellGrid::cross(const TriMesh& mesh, const std::vector<Vec3>& local, int axis,
+                     const Found& found) const {
+  const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+  const bool right_handed = axes_.determinant() > 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     std::array<NodeId, 3> n = mesh.corners[TriId(t)];
     std::array<Vec3, 3> x{local[n[0].index()], local[n[1].index()], local[n[2].index()]};
@@ -179,17 +185,53 @@ void CellGrid::cross(const TriMesh& mesh, int axis, const Found& found) const {
         at[axis] = static_cast<int>(below);
         at[b] = i;
         at[c] = j;
-        found(edge(cell(at[0], at[1], at[2]), axis), z - below, TriId(t), upwards);
+        found(cell(at[0], at[1], at[2]), z - below, TriId(t), upwards);
       }
   }
 }
 
-// From the bottom of each line of cells, in and out at every crossing.
-void CellGrid::fill(const TriMesh& body) {
+// What is inside: from the bottom of each line of cells along the first axis, in and out at every crossing.
+void CellGrid::stand_walls(const TriMesh& body, const TriMesh& sheets) {
+  const std::vector<Vec3> of_body = places(body), of_sheets = places(sheets);
   std::vector<std::uint8_t> odd(inside_.size(), 0);
-  cross(body, 0, [&](std::size_t e, double, TriId, bool) { odd[e / 3] ^= 1; });
-  for (std::size_t c = 0; c + step_[0] < inside_.size(); ++c)
-    inside_[c + step_[0]] = inside_[c] ^ odd[c];
+  for (int axis = 0; axis < 3; ++axis) {
+    cross(body, of_body, axis, [&](std::size_t c, double, TriId, bool) {
+      wall_[c] |= static_cast<std::uint8_t>(kSurface << axis);
+      if (axis == 0) odd[c] ^= 1;
+    });
+    cross(sheets, of_sheets, axis, [&](std::size_t c, double depth, TriId t, bool upwards) {
+      wall_[c] |= static_cast<std::uint8_t>(kSheet << axis);
+      crossings_.push_back({c, axis, depth, t, upwards});
+    });
+  }
+  std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
+    return std::tie(x.cell, x.axis, x.depth, x.triangle) < std::tie(y.cell, y.axis, y.depth, y.triangle);
+  });
+  for (std::size_t plane = 0; plane + step_[0] < inside_.size(); plane += step_[0])
+    std::transform(inside_.begin() + plane, inside_.begin() + plane + step_[0], odd.begin() + plane,
+                   inside_.begin() + plane + step_[0], std::bit_xor<>());
+}
+
+void CellGrid::list_inside_cells() {
+  const std::uint8_t* const first = inside_.data();
+  const std::uint8_t* const end = first + inside_.size();
+  for (const std::uint8_t* at = first; at != end; ++at) {
+    if (*at == 0) {
+      at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));
+      if (at == nullptr) break;
+    }
+    inside_cells_.push_back({static_cast<std::uint32_t>(at - first), {-1, -1, -1}});
+  }
+  std::array<std::size_t, 3> ahead{};
+  for (InsideCell& c : inside_cells_)
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t next = c.cell + step_[axis];
+      std::size_t& at = ahead[axis];
+      while (at < inside_cells_.size() && inside_cells_[at].cell < next)
+        ++at;
+      if (at < inside_cells_.size() && inside_cells_[at].cell == next)
+        c.next[axis] = static_cast<std::int32_t>(at);
+    }
 }
 
 }  // namespace conchoid

@@ -2,18 +2,28 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
 
 /// Where the line between two neighbouring cells passes through a crack sheet.
 struct SheetCrossing {
-  std::size_t edge = 0;  ///< see CellGrid::edge
+  std::size_t cell = 0;  ///< the lower one
+  int axis = 0;
   double depth = 0;      ///< share of the way from the lower cell to the upper one
   TriId triangle;        ///< of the sheet
   bool upwards = false;  ///< the upper cell lies on the side to which the triangle's normal points
+};
+
+/// A cell inside of a body, and its neighbours.
+struct InsideCell {
+  std::uint32_t cell = 0;
+  std::array<std::int32_t, 3> next{-1, -1,
+                                   -1};  ///< along each axis, as a place among the cells inside; −1 outside
 };
 
 /// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
@@ -45,22 +55,29 @@ class CellGrid {
   void mark_near(const Vec3& place, double reach, std::vector<bool>& near) const;
 
   bool inside(std::size_t cell) const { return inside_[cell] != 0; }
-  /// The edge from a cell to the next one along an axis.
-  static std::size_t edge(std::size_t cell, int axis) { return 3 * cell + axis; }
-  bool open(std::size_t edge) const { return wall_[edge] == 0; }
+  /// The cells inside of the body, by their ids: mostly few of those of its box.
+  const std::vector<InsideCell>& inside_cells() const { return inside_cells_; }
+  /// The place of a cell among these; −1 outside of the body.
+  std::int32_t number(std::size_t cell) const;
+
+  /// Whether nothing stands between a cell and the next one along an axis.
+  bool open(std::size_t cell, int axis) const { return (wall_[cell] & (kSurface | kSheet) << axis) == 0; }
   /// Whether a crack, not the body's surface alone, stands between the two.
-  bool cracked(std::size_t edge) const { return (wall_[edge] & kSheet) != 0; }
-  /// By edge, then depth.
+  bool cracked(std::size_t cell, int axis) const { return (wall_[cell] & kSheet << axis) != 0; }
+  /// By cell, axis, then depth.
   const std::vector<SheetCrossing>& crossings() const { return crossings_; }
 
  private:
-  static constexpr std::uint8_t kSurface = 1, kSheet = 2;
+  static constexpr unsigned kSurface = 1, kSheet = 8;  // shifted by the axis
 
-  /// Calls found(edge, depth, triangle, upwards) wherever lines of cells along `axis` cross the mesh; cells
+  /// Positions of a mesh's nodes counted in cells.
+  std::vector<Vec3> places(const TriMesh& mesh) const;
+  /// Calls found(cell, depth, triangle, upwards) wherever lines of cells along `axis` cross the mesh; cells
   /// outside of the grid are left out, their lines are not.
   template <class Found>
-  void cross(const TriMesh& mesh, int axis, const Found& found) const;
-  void fill(const TriMesh& body);
+  void cross(const TriMesh& mesh, const std::vector<Vec3>& places, int axis, const Found& found) const;
+  void stand_walls(const TriMesh& body, const TriMesh& sheets);
+  void list_inside_cells();
 
   double size_;
   Mat3 axes_;  // columns; perhaps left-handed
@@ -68,7 +85,51 @@ class CellGrid {
   std::array<int, 3> count_{};
   std::array<std::size_t, 3> step_{};
   std::vector<std::uint8_t> inside_, wall_;
+  std::vector<InsideCell> inside_cells_;
   std::vector<SheetCrossing> crossings_;
 };
+
+/// Disjoint sets of the cells inside, numbered in the order of their first cells.
+struct CellSets {
+  std::vector<std::int32_t> of_cell;  ///< by the cell's place among those inside
+  std::int32_t count = 0;
+};
+
+/// The sets of cells that hang together by neighbours.
+/// @param together  (place of a cell, axis, place of the next one) → whether these two do
+template <class Together>
+CellSets sets_of_cells(const CellGrid& grid, const Together& together) {
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  CellSets sets;
+  std::vector<std::int32_t>& run =
+      sets.of_cell;  // of cells one after the other along the third axis, at first
+  run.resize(inside.size());
+  std::int32_t runs = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const bool goes_on =
+        i > 0 && inside[i - 1].next[2] == static_cast<std::int32_t>(i) && together(i - 1, 2, i);
+    run[i] = goes_on ? runs - 1 : runs++;
+  }
+  UnionFind joined(static_cast<std::size_t>(runs));
+  for (int axis = 0; axis < 2; ++axis) {
+    std::pair<std::int32_t, std::int32_t> last{-1, -1};
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      if (inside[i].next[axis] < 0) continue;
+      const auto n = static_cast<std::size_t>(inside[i].next[axis]);
+      const std::pair pair{run[i], run[n]};
+      if (pair == last || !together(i, axis, n)) continue;
+      joined.join(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
+      last = pair;
+    }
+  }
+  std::vector<std::int32_t> set(static_cast<std::size_t>(runs));
+  for (std::size_t r = 0; r < set.size(); ++r) {
+    const std::size_t first = joined.root(r);
+    set[r] = first == r ? sets.count++ : set[first];
+  }
+  for (std::int32_t& of : sets.of_cell)
+    of = set[static_cast<std::size_t>(of)];
+  return sets;
+}
 
 }  // namespace conchoid

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "conchoid/core/union_find.hpp"
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -46,35 +45,55 @@ std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets,
 // Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side: nothing
 // would come off there.
 void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
-  UnionFind together(grid.cells());
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    for (int axis = 0; axis < 3 && grid.inside(c); ++axis)
-      if (const std::size_t d = grid.next(c, axis); grid.inside(d) && side[c] == side[d]) together.join(c, d);
-  std::vector<int> cells(grid.cells(), 0);
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    ++cells[together.root(c)];
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    if (grid.inside(c) && cells[together.root(c)] < kFewestCells)
-      side[c] = static_cast<std::int8_t>(-side[c]);
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  const CellSets sets = sets_of_cells(grid, [&](std::size_t i, int, std::size_t next) {
+    return side[inside[i].cell] == side[inside[next].cell];
+  });
+  std::vector<int> cells(static_cast<std::size_t>(sets.count), 0);
+  for (const std::int32_t set : sets.of_cell)
+    ++cells[static_cast<std::size_t>(set)];
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (std::int8_t& s = side[inside[i].cell];
+        cells[static_cast<std::size_t>(sets.of_cell[i])] < kFewestCells)
+      s = static_cast<std::int8_t>(-s);
 }
 
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
   std::vector<Vec3> faces;
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    for (int axis = 0; axis < 3 && grid.inside(c); ++axis) {
-      const std::size_t d = grid.next(c, axis);
-      if (grid.inside(d) && grid.open(CellGrid::edge(c, axis)) && partition.side[c] != partition.side[d])
-        faces.push_back(0.5 * (grid.center(c) + grid.center(d)));
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  for (const InsideCell& c : inside)
+    for (int axis = 0; axis < 3; ++axis) {
+      if (c.next[axis] < 0) continue;
+      const std::size_t d = inside[static_cast<std::size_t>(c.next[axis])].cell;
+      if (partition.side[c.cell] != partition.side[d] && grid.open(c.cell, axis))
+        faces.push_back(0.5 * (grid.center(c.cell) + grid.center(d)));
     }
   return faces;
 }
 
+// The body's surface and the cracks, once something asks for it.
+class Walls {
+ public:
+  Walls(const TriMesh& body, const TriMesh& sheets) : body_(body), sheets_(sheets) {}
+  const ClosestPointTree& tree() {
+    if (!tree_) tree_.emplace(join({body_, sheets_}));
+    return *tree_;
+  }
+
+ private:
+  const TriMesh& body_;
+  const TriMesh& sheets_;
+  std::optional<ClosestPointTree> tree_;
+};
+
 // None where it parts off too little.
 std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
-                                        const ClosestPointTree& walls) {
+                                        Walls& walls) {
   remove_specks(*grid, partition.side);
-  const auto upper = std::count(partition.side.begin(), partition.side.end(), 1);
-  const auto lower = std::count(partition.side.begin(), partition.side.end(), -1);
+  std::ptrdiff_t upper = 0;
+  for (const InsideCell& c : grid->inside_cells())
+    upper += partition.side[c.cell] > 0;
+  const std::ptrdiff_t lower = static_cast<std::ptrdiff_t>(grid->inside_cells().size()) - upper;
   if (std::min(upper, lower) < kFewestCells) return std::nullopt;
   LastLigament out;
   out.grid = std::move(grid);
@@ -82,7 +101,7 @@ std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, Ce
   out.faces = broken_faces(*out.grid, out.partition);
   double widest = 0;
   for (const Vec3& x : out.faces)
-    widest = std::max(widest, walls.closest(x).squared_distance);
+    widest = std::max(widest, walls.tree().closest(x).squared_distance);
   out.half_width = std::sqrt(widest);
   out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(std::min(upper, lower));
   return out;
@@ -96,7 +115,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
   const std::vector<int> part = connected_parts(sheets);
-  const ClosestPointTree walls(join({body, sheets}));
+  Walls walls(body, sheets);
   std::vector<LastLigament> found;
   std::vector<bool> crack(sheets.triangle_count());
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
@@ -118,12 +137,13 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
   std::vector<std::int8_t> known(grid->cells(), 0);
-  for (std::size_t c = 0; c < grid->cells(); ++c)
-    if (grid->inside(c) && !band[c])
-      if (const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(c))))
-        known[c] = elsewhere.partition.side[*there];
+  for (const InsideCell& c : grid->inside_cells())
+    if (!band[c.cell])
+      if (const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(c.cell))))
+        known[c.cell] = elsewhere.partition.side[*there];
   const std::vector<bool> all(sheets.triangle_count(), true);
-  return ligament_of(grid, minimal_cut(*grid, all, band, known), ClosestPointTree(join({body, sheets})));
+  Walls walls(body, sheets);
+  return ligament_of(grid, minimal_cut(*grid, all, band, known), walls);
 }
 
 }  // namespace conchoid

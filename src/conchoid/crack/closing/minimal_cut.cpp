@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "conchoid/core/interrupt.hpp"
-#include "conchoid/core/union_find.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
@@ -19,41 +18,32 @@ using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_pro
                                                  boost::no_property, std::int32_t, std::int32_t>;
 using Arc = boost::graph_traits<Graph>::edge_descriptor;
 
-// Surplus of faces of the crack that look at each cell from its upper over those from its lower side.
+// Surplus of faces of the crack that look at each cell inside from its upper over those from its lower side.
 std::vector<int> faces_seen(const CellGrid& grid, const std::vector<bool>& crack) {
-  std::vector<int> seen(grid.cells(), 0);
+  std::vector<int> seen(grid.inside_cells().size(), 0);
+  const auto see = [&](std::size_t cell, int faces) {
+    if (const std::int32_t i = grid.number(cell); i >= 0) seen[static_cast<std::size_t>(i)] += faces;
+  };
   const auto& crossings = grid.crossings();
+  const auto same_edge = [](const SheetCrossing& x, const SheetCrossing& y) {
+    return x.cell == y.cell && x.axis == y.axis;
+  };
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const SheetCrossing& x = crossings[i];
     if (!crack[x.triangle.index()]) continue;
-    const std::size_t low = x.edge / 3, high = grid.next(low, static_cast<int>(x.edge % 3));
-    if (i == 0 || crossings[i - 1].edge != x.edge) seen[low] += x.upwards ? -1 : 1;
-    if (i + 1 == crossings.size() || crossings[i + 1].edge != x.edge) seen[high] += x.upwards ? 1 : -1;
+    if (i == 0 || !same_edge(crossings[i - 1], x)) see(x.cell, x.upwards ? -1 : 1);
+    if (i + 1 == crossings.size() || !same_edge(crossings[i + 1], x))
+      see(grid.next(x.cell, x.axis), x.upwards ? 1 : -1);
   }
   return seen;
 }
 
 // Vertices of the graph: a cell of the band, or all cells beyond it that hang together there.
-struct Vertices {
-  std::vector<std::int32_t> of_cell;  // −1 outside of the body
-  std::int32_t count = 0;
-};
-
-Vertices vertices_of(const CellGrid& grid, const std::vector<bool>& band) {
-  UnionFind together(grid.cells());
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    for (int axis = 0; axis < 3 && grid.inside(c) && !band[c]; ++axis)
-      if (const std::size_t d = grid.next(c, axis);
-          grid.inside(d) && !band[d] && grid.open(CellGrid::edge(c, axis)))
-        together.join(c, d);
-  Vertices out;
-  out.of_cell.assign(grid.cells(), -1);
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    if (grid.inside(c)) {
-      const std::size_t first = together.root(c);
-      out.of_cell[c] = first == c ? out.count++ : out.of_cell[first];
-    }
-  return out;
+CellSets vertices_of(const CellGrid& grid, const std::vector<bool>& band) {
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  return sets_of_cells(grid, [&](std::size_t i, int axis, std::size_t next) {
+    return !band[inside[i].cell] && !band[inside[next].cell] && grid.open(inside[i].cell, axis);
+  });
 }
 
 // Arcs out of each vertex, one after the other; each with its capacity and its opposite.
@@ -106,22 +96,24 @@ class NetworkBuilder {
 CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<bool>& band,
                           const std::vector<std::int8_t>& known) {
   throw_if_interrupted();
-  const Vertices vertices = vertices_of(grid, band);
+  const CellSets vertices = vertices_of(grid, band);
   const std::vector<std::int32_t>& vertex = vertices.of_cell;
   const std::int32_t count = vertices.count, source = count, sink = count + 1;
   NetworkBuilder builder(static_cast<std::size_t>(count) + 2);
   std::vector<int> surplus(static_cast<std::size_t>(count), 0);
   std::vector<char> up(static_cast<std::size_t>(count), 0), down(up);  // that cells are known to lie there
   const std::vector<int> seen = faces_seen(grid, crack);
-  for (std::size_t c = 0; c < grid.cells(); ++c) {
-    if (vertex[c] < 0) continue;
-    const auto v = static_cast<std::size_t>(vertex[c]);
-    surplus[v] += seen[c];
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const auto v = static_cast<std::size_t>(vertex[i]);
+    const std::size_t c = inside[i].cell;
+    surplus[v] += seen[i];
     if (!known.empty() && known[c] != 0) (known[c] > 0 ? up : down)[v] = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      if (const std::size_t d = grid.next(c, axis);
-          vertex[d] >= 0 && vertex[d] != vertex[c] && grid.open(CellGrid::edge(c, axis)))
-        builder.connect(vertex[c], vertex[d], kFaceCost, kFaceCost);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (inside[i].next[axis] < 0) continue;
+      const std::int32_t next = vertex[static_cast<std::size_t>(inside[i].next[axis])];
+      if (next != vertex[i] && grid.open(c, axis)) builder.connect(vertex[i], next, kFaceCost, kFaceCost);
+    }
   }
   const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
   for (std::int32_t v = 0; v < count; ++v) {
@@ -152,8 +144,8 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, 
       boost::make_iterator_property_map(distance.begin(), by_vertex), by_vertex, source, sink);
   CellPartition out;
   out.side.assign(grid.cells(), 0);
-  for (std::size_t c = 0; c < grid.cells(); ++c)
-    if (vertex[c] >= 0) out.side[c] = color[vertex[c]] == color[source] ? 1 : -1;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    out.side[inside[i].cell] = color[vertex[i]] == color[source] ? 1 : -1;
   return out;
 }
 
