@@ -155,13 +155,6 @@ void FrontSurroundings::measure_sections(const CrackState& crack, const std::vec
   }
 }
 
-double FrontSurroundings::ligament_share() const {
-  double sum = 0;
-  for (const Point& p : points_)
-    sum += p.crack_radius > 0 ? p.ligament_share : 1;  // nothing is known of a crack without area
-  return points_.empty() ? 1 : sum / static_cast<double>(points_.size());
-}
-
 bool FrontSurroundings::complete(const CrackState& crack, std::size_t i, Sample& s) const {
   const auto found = before_.find(crack.points[i].correlation);
   if (found == before_.end()) return false;

@@ -30,8 +30,6 @@ class FrontSurroundings {
   /// as last measured
   /// @return false where the correlation node was not on the front in the frame before
   bool complete(const CrackState& crack, std::size_t i, Sample& sample) const;
-  /// What lies straight ahead of the fronts over that and the area of their crack, mean over the points as last measured.
-  double ligament_share() const;
   /// Keeps what was measured, and K, for the frame after.
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings);
 

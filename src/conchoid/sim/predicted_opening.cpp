@@ -5,6 +5,7 @@
 #include "conchoid/core/error.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/law/criterion.hpp"
+#include "conchoid/sim/frames_ahead.hpp"
 #include "conchoid/sim/front_gaps.hpp"
 
 namespace conchoid {
@@ -22,6 +23,8 @@ double diagonal_of(const PreparedBody& body) {
 
 PredictedOpening::PredictedOpening(const PredictionContext& c, const ExpectedError::Statement& statement)
     : bem_(c.bem),
+      surface_(c.body.surface),
+      crack_edge_(c.body.crack_edge),
       sif_(c.sif),
       material_(c.material.elastic()),
       toughness_(c.material.toughness),
@@ -57,12 +60,13 @@ bool PredictedOpening::any_moves(const CrackState& crack, const std::vector<Fron
     if (effective_intensity(predicted[i].intensity, material_) >= toughness_ * toughness_factor_.at(x).value)
       return true;
   }
-  return false;
+  return predicted.empty();  // fronts that are through are not arrested
 }
 
 bool PredictedOpening::is_good(const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
   if (!looks()) return true;
-  return error_.at_the_end(crack, predicted, share_left()) <= *tolerance_ && any_moves(crack, predicted);
+  return error_.at_the_end(crack, predicted, frames_ahead(crack, surface_, crack_edge_)) <= *tolerance_ &&
+         any_moves(crack, predicted);
 }
 
 std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {
@@ -110,10 +114,6 @@ OpeningByPredictor::OpeningByPredictor(const PredictionContext& c, const Opening
 
 void OpeningByPredictor::look_at(const CrackState& crack) {
   if (surroundings_) surroundings_->measure(crack, bem().body().load(), bem().loads());
-}
-
-double OpeningByPredictor::share_left() const {
-  return surroundings_ ? surroundings_->ligament_share() : 1;
 }
 
 void OpeningByPredictor::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {

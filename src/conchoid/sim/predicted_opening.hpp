@@ -26,9 +26,9 @@ struct PredictionContext {
 /// later frame that cannot be solved (SingularSystem) is predicted, too.
 ///
 /// With a tolerance X (methods "hybrid") a prediction is looked at first: the frame is solved if the whole surface
-/// would be expected farther than X from the solved one (ExpectedError) were what is left of it off by as much as the
-/// front that the prediction leads to, if no point of the front would move, or if X = 0. So the expected error of the
-/// surface keeps within X. X = 0 is the solution bit for bit, frames that cannot be solved among it: they are carried, not
+/// would be expected farther than X from the solved one in the end (ExpectedError) were all frames predicted from here on
+/// until the fronts are through, if no point of the front would move, or if X = 0. So early frames are solved, whose
+/// rows are few and whose errors all that follows would inherit, and the last ones predicted. X = 0 is the solution bit for bit, frames that cannot be solved among it: they are carried, not
 /// predicted. X = ∞ is the prediction.
 class PredictedOpening : public OpeningSource {
  public:
@@ -48,8 +48,6 @@ class PredictedOpening : public OpeningSource {
   /// What else is to be known of the cracks as they stand, before they are solved or predicted, and after.
   virtual void look_at(const CrackState& /*crack*/) {}
   virtual void remember(const CrackState& /*crack*/, const std::vector<FrontOpening>& /*openings*/) {}
-  /// How much of the whole surface there will be is not there yet, 0 … 1; 1 where nothing is known of it.
-  virtual double share_left() const { return 1; }
   /// What front nodes were like when they were last on the front.
   const FrontHistory& history() const { return history_; }
   /// K of a point, in its own frame, and the opening that belongs to it.
@@ -68,6 +66,8 @@ class PredictedOpening : public OpeningSource {
   std::optional<std::vector<FrontOpening>> solve(const CrackState& crack);
 
   BemOpening& bem_;
+  const TriMesh& surface_;
+  double crack_edge_;
   SifSettings sif_;
   ElasticConstants material_;
   double toughness_;  // of the material
@@ -90,7 +90,6 @@ class OpeningByPredictor : public PredictedOpening {
  private:
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
   void look_at(const CrackState& crack) override;
-  double share_left() const override;
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings) override;
   Vec3 turned_spread(const FrontFrame& before, const FrontPoint& point, const Vec3& spread) const;
 
