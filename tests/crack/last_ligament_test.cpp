@@ -50,7 +50,8 @@ TEST(CellGrid, ItsCellsAreThoseWhoseCentresTheBodyWindsAround) {
     ASSERT_EQ(grid.inside_cells().size(), inside);
     for (std::size_t i = 0; i < inside; ++i)
       for (int axis = 0; axis < 3; ++axis)
-        ASSERT_EQ(grid.inside_cells()[i].next[axis], grid.number(grid.next(grid.inside_cells()[i].cell, axis)));
+        ASSERT_EQ(grid.inside_cells()[i].next[axis],
+                  grid.number(grid.next(grid.inside_cells()[i].cell, axis)));
     EXPECT_NEAR(static_cast<double>(inside) * std::pow(grid.size(), 3), enclosed_volume(body),
                 0.05 * enclosed_volume(body));
   }
