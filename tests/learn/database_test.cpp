@@ -13,6 +13,7 @@
 
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/learn/database_provenance.hpp"
 #include "conchoid/learn/summary.hpp"
 #include "synthetic.hpp"
 
@@ -361,6 +362,23 @@ TEST(DatabaseStatistics, AreThoseOfTable1) {
   const DatabaseStatistics stats = database_statistics(d);
   EXPECT_EQ(stats.samples, d.training_samples().size());
   EXPECT_DOUBLE_EQ(stats.K[1].mean, statistics(d.training_samples().field(1)).mean);
+}
+
+TEST(JoinedSamples, KnowOnlyTheClassesThatTheyHold) {
+  Database d;
+  d.header = header(4);
+  for (std::int32_t id = 0; id < 3; ++id) {
+    d.runs.push_back(record(id));
+    d.runs.back().body_class = id == 1 ? "cylinder" : "cube";
+    d.samples.append(samples_of(id));
+  }
+  const auto joined = [&](const TrainingChoice& choice) { return join_samples({d, d}, choice); };
+  EXPECT_EQ(joined({}).provenance.models, (std::vector<std::string>{"cube", "cylinder"}));
+  for (const TrainingChoice& choice :
+       {TrainingChoice{true, {"cylinder"}, {}}, TrainingChoice{true, {}, {"cube"}}}) {
+    EXPECT_EQ(joined(choice).provenance.models, std::vector<std::string>{"cylinder"});
+    EXPECT_EQ(joined(choice).samples.size(), 2 * samples_of(1).size());
+  }
 }
 
 }  // namespace

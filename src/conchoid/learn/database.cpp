@@ -16,9 +16,7 @@ std::int32_t DatabaseHeader::planned_here() const {
 SampleSet Database::training_samples(const TrainingChoice& choice) const {
   std::set<std::int32_t> left_out;
   for (const RunRecord& run : runs)
-    if (run.excluded || choice.without.contains(run.body_class) ||
-        (!choice.only.empty() && !choice.only.contains(run.body_class)))
-      left_out.insert(run.id);
+    if (run.excluded || !choice.takes(run.body_class)) left_out.insert(run.id);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < samples.size(); ++i)
     if (!left_out.contains(samples.run()[i]) && (choice.end_game || !is_end_game(samples[i])))

@@ -54,6 +54,10 @@ struct TrainingChoice {
   bool end_game = false;
   std::set<std::string> only;     ///< classes of bodies; empty: all
   std::set<std::string> without;  ///< classes that are held out
+
+  bool takes(const std::string& body_class) const {
+    return !without.contains(body_class) && (only.empty() || only.contains(body_class));
+  }
 };
 
 /// Everything in a database file: runs ordered by id, samples in the order of their runs.

@@ -23,6 +23,7 @@ JoinedSamples join_samples(const std::vector<Database>& databases, const Trainin
     first += database.header.planned_runs;
     out.samples.append(samples);
     Provenance of_this = provenance_of(database.header);
+    std::erase_if(of_this.models, [&](const std::string& model) { return !choice.takes(model); });
     if (&database == &databases.front()) {
       out.provenance = std::move(of_this);
       continue;
