@@ -2,54 +2,36 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <boost/geometry/algorithms/area.hpp>
+#include <boost/geometry/algorithms/within.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/ring.hpp>
+#include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <map>
 
 #include "conchoid/core/vec.hpp"
 
 namespace conchoid {
 namespace {
 
-using Loop = std::vector<Vec2>;  // about the point, the body to the left: holes turn clockwise
+using Point = boost::geometry::model::d2::point_xy<double>;
+// About the point that is asked for, counter-clockwise and open: the body to the left, so holes have negative areas.
+using Loop = boost::geometry::model::ring<Point, false, false>;
+using boost::geometry::area, boost::geometry::within;
 
-double signed_area(const Loop& loop) {
-  double twice = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return twice / 2;
-}
-
-bool contains(const Loop& loop, const Vec2& x) {
-  bool inside = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    if ((a.y() > x.y()) == (b.y() > x.y())) continue;
-    if (x.x() < a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
-
-double distance_from(const Loop& loop, const Vec2& x) {
+double distance_from(const Loop& loop) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Vec2& a : loop)
-    least = std::min(least, (a - x).norm());
+  for (const Point& a : loop)
+    least = std::min(least, std::hypot(a.x(), a.y()));
   return least;
 }
-
-struct EdgeHash {
-  std::size_t operator()(const Edge& e) const {
-    return std::hash<std::size_t>{}(e.a.index() * 0x9e3779b97f4a7c15ULL + e.b.index());
-  }
-};
 
 std::vector<Loop> loops_of(const TriMesh& surface, const Vec3& point, const Vec3& n) {
   const Vec3 along = n.unitOrthogonal(), across = cross(n, along);
   const auto height = [&](NodeId node) { return (surface.positions[node] - point).dot(n); };
-  std::unordered_map<Edge, Edge, EdgeHash>
-      next;  // edge of the surface that the section crosses → the next one
-  std::vector<Edge> order;
+  std::map<Edge, Edge> next;  // edge of the surface that the section crosses → the next one
   for (const auto& c : surface.corners) {
     std::array<bool, 3> above{};
     for (int k = 0; k < 3; ++k)
@@ -57,30 +39,25 @@ std::vector<Loop> loops_of(const TriMesh& surface, const Vec3& point, const Vec3
     for (int k = 0; k < 3; ++k) {
       const int l = (k + 1) % 3, m = (k + 2) % 3;
       if (above[l] != above[m] || above[k] == above[l]) continue;
-      const Edge to(c[m], c[k]), from(c[k], c[l]);  // k alone on its side
-      const Edge& first = above[k] ? from : to;
-      next.emplace(first, above[k] ? to : from);
-      order.push_back(first);
+      const Edge before(c[k], c[l]), after(c[m], c[k]);  // k alone on its side
+      next.emplace(above[k] ? before : after, above[k] ? after : before);
     }
   }
   const auto place = [&](const Edge& e) {
     const double a = height(e.a), b = height(e.b);
     const Vec3 x =
         surface.positions[e.a] + a / (a - b) * (surface.positions[e.b] - surface.positions[e.a]) - point;
-    return Vec2(x.dot(along), x.dot(across));
+    return Point(x.dot(along), x.dot(across));
   };
   std::vector<Loop> loops;
-  for (const Edge& start : order) {
-    Loop loop;
-    for (auto at = next.find(start); at != next.end(); at = next.find(start)) {
-      Edge e = start;
-      for (auto step = at; step != next.end(); step = next.find(e)) {
-        loop.push_back(place(e));
-        e = step->second;
-        next.erase(step);
-      }
+  while (!next.empty()) {
+    Loop& loop = loops.emplace_back();
+    Edge e = next.begin()->first;
+    for (auto step = next.find(e); step != next.end(); step = next.find(e)) {
+      loop.push_back(place(e));
+      e = step->second;
+      next.erase(step);
     }
-    if (!loop.empty()) loops.push_back(std::move(loop));
   }
   return loops;
 }
@@ -92,18 +69,18 @@ double section_area(const TriMesh& surface, const Vec3& point, const Vec3& unit_
   const Loop* outer = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Loop& loop : loops) {
-    if (signed_area(loop) <= 0) continue;
-    const double distance = contains(loop, Vec2::Zero()) ? 0 : distance_from(loop, Vec2::Zero());
+    if (area(loop) <= 0) continue;
+    const double distance = within(Point(0, 0), loop) ? 0 : distance_from(loop);
     if (distance < nearest) {
       nearest = distance;
       outer = &loop;
     }
   }
   if (outer == nullptr) return 0;
-  double area = signed_area(*outer);
+  double sum = area(*outer);
   for (const Loop& loop : loops)
-    if (signed_area(loop) < 0 && contains(*outer, loop[0])) area += signed_area(loop);
-  return std::max(area, 0.0);
+    if (area(loop) < 0 && within(loop[0], *outer)) sum += area(loop);
+  return std::max(sum, 0.0);
 }
 
 }  // namespace conchoid

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "conchoid/mesh/plane_section.hpp"
-#include "conchoid/sim/crack_sizes.hpp"
 
 namespace conchoid {
 namespace {
@@ -38,14 +38,18 @@ std::vector<int> frames_ahead(const CrackState& crack, const TriMesh& surface, d
     c.normal += a;
     c.center += a.norm() * centroid(crack.trimmed, TriId(t));
   }
-  const std::vector<CrackSize> sizes = crack_sizes(crack);
-  for (const CrackSize& s : sizes)
-    if (s.crack >= 0) ++cracks[static_cast<std::size_t>(s.crack)].points;
+  std::vector<std::optional<std::size_t>> crack_of;  // per point; none outside of the body
+  for (const FrontPoint& point : crack.points) {
+    const NodeId node = crack.node_in_cut[point.node];
+    crack_of.push_back(node.valid() ? std::optional(static_cast<std::size_t>(part[node.index()]))
+                                    : std::nullopt);
+    if (crack_of.back()) ++cracks[*crack_of.back()].points;
+  }
   std::vector<int> frames;
   for (const Crack& c : cracks)
     frames.push_back(c.points > 0 ? frames_of(c, surface, crack_edge) : kMostFramesAhead);
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (sizes[i].crack >= 0) out[i] = frames[static_cast<std::size_t>(sizes[i].crack)];
+    if (crack_of[i]) out[i] = frames[*crack_of[i]];
   return out;
 }
 

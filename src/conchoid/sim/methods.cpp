@@ -57,15 +57,15 @@ std::vector<OpeningMethod> list_methods() {
        .regressor = "",
        .baseline = nullptr,
        .make = [](const MethodContext& c) { return std::make_unique<StressOpening>(c.prediction); }});
-  methods.push_back({.name = "hybrid",
-                     .title = "predicted, and solved where that may go astray",
-                     .help =
-                         "predicts by the database, and solves the frames whose prediction would bring more "
-                         "error than --tolerance",
-                     .regressor = "",
-                     .hybrid = true,
-                     .baseline = nullptr,
-                     .make = hybrid_source});
+  methods.push_back(
+      {.name = "hybrid",
+       .title = "predicted, and solved where that may go astray",
+       .help = "predicts by the database, and solves as many frames, mostly the first, as --tolerance "
+               "asks for",
+       .regressor = "",
+       .hybrid = true,
+       .baseline = nullptr,
+       .make = hybrid_source});
   for (const RegressorKind& kind : regressor_kinds())
     methods.push_back(regressor_method(kind));
   return methods;

@@ -17,8 +17,8 @@ struct PredictionContext {
   const PreparedBody& body;
   SifSettings sif;
   int solve_every = 0;  ///< N: frames 1, 1 + N, 1 + 2N … are solved; 0: frame 1 alone
-  /// Largest error to be expected of the surface, over the body's diagonal; a frame whose prediction would bring
-  /// more is solved. 0: every frame; none: nobody asks.
+  /// Largest error to be expected of the surface, over the body's diagonal; where that would be more, were
+  /// a frame and all after it predicted, it is solved. 0: every frame; none: nobody asks.
   std::optional<double> tolerance = {};
 };
 
@@ -28,8 +28,8 @@ struct PredictionContext {
 /// With a tolerance X (methods "hybrid") a prediction is looked at first: the frame is solved if the whole surface
 /// would be expected farther than X from the solved one in the end (ExpectedError) were all frames predicted from here on
 /// until the fronts are through, if no point of the front would move, or if X = 0. So early frames are solved, whose
-/// rows are few and whose errors all that follows would inherit, and the last ones predicted. X = 0 is the solution bit for bit, frames that cannot be solved among it: they are carried, not
-/// predicted. X = ∞ is the prediction.
+/// rows are few and whose errors all that follows would inherit, and the last ones predicted. X = 0 is the solution
+/// bit for bit, frames that cannot be solved among it: they are carried, not predicted. X = ∞ is the prediction.
 class PredictedOpening : public OpeningSource {
  public:
   std::vector<FrontOpening> open(const CrackState& crack) final;

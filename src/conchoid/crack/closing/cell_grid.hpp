@@ -2,10 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "conchoid/core/union_find.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -13,7 +11,7 @@ namespace conchoid {
 /// Where the line between two neighbouring cells passes through a crack sheet.
 struct SheetCrossing {
   std::size_t cell = 0;  ///< the lower one
-  int axis = 0;
+  int axis = 0;          ///< from it to the upper one
   double depth = 0;      ///< share of the way from the lower cell to the upper one
   TriId triangle;        ///< of the sheet
   bool upwards = false;  ///< the upper cell lies on the side to which the triangle's normal points
@@ -22,8 +20,8 @@ struct SheetCrossing {
 /// A cell inside of a body, and its neighbours.
 struct InsideCell {
   std::uint32_t cell = 0;
-  std::array<std::int32_t, 3> next{-1, -1,
-                                   -1};  ///< along each axis, as a place among the cells inside; −1 outside
+  /// Along each axis, as a place among the cells inside; −1 outside.
+  std::array<std::int32_t, 3> next{-1, -1, -1};
 };
 
 /// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
@@ -88,48 +86,5 @@ class CellGrid {
   std::vector<InsideCell> inside_cells_;
   std::vector<SheetCrossing> crossings_;
 };
-
-/// Disjoint sets of the cells inside, numbered in the order of their first cells.
-struct CellSets {
-  std::vector<std::int32_t> of_cell;  ///< by the cell's place among those inside
-  std::int32_t count = 0;
-};
-
-/// The sets of cells that hang together by neighbours.
-/// @param together  (place of a cell, axis, place of the next one) → whether these two do
-template <class Together>
-CellSets sets_of_cells(const CellGrid& grid, const Together& together) {
-  const std::vector<InsideCell>& inside = grid.inside_cells();
-  CellSets sets;
-  std::vector<std::int32_t>& run =
-      sets.of_cell;  // of cells one after the other along the third axis, at first
-  run.resize(inside.size());
-  std::int32_t runs = 0;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const bool goes_on =
-        i > 0 && inside[i - 1].next[2] == static_cast<std::int32_t>(i) && together(i - 1, 2, i);
-    run[i] = goes_on ? runs - 1 : runs++;
-  }
-  UnionFind joined(static_cast<std::size_t>(runs));
-  for (int axis = 0; axis < 2; ++axis) {
-    std::pair<std::int32_t, std::int32_t> last{-1, -1};
-    for (std::size_t i = 0; i < inside.size(); ++i) {
-      if (inside[i].next[axis] < 0) continue;
-      const auto n = static_cast<std::size_t>(inside[i].next[axis]);
-      const std::pair pair{run[i], run[n]};
-      if (pair == last || !together(i, axis, n)) continue;
-      joined.join(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
-      last = pair;
-    }
-  }
-  std::vector<std::int32_t> set(static_cast<std::size_t>(runs));
-  for (std::size_t r = 0; r < set.size(); ++r) {
-    const std::size_t first = joined.root(r);
-    set[r] = first == r ? sets.count++ : set[first];
-  }
-  for (std::int32_t& of : sets.of_cell)
-    of = set[static_cast<std::size_t>(of)];
-  return sets;
-}
 
 }  // namespace conchoid

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "conchoid/crack/closing/cell_sets.hpp"
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/crack/closing/cell_sets.hpp"
 #include "conchoid/crack/length_factors.hpp"
 
 namespace conchoid {
