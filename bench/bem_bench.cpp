@@ -124,7 +124,10 @@ void factorisation(benchmark::State& state) {
       state,
       [&] {
         BorderedCholesky factor;
-        const double time = seconds([&] { definite = factor.append({}, rows); });
+        const double time = seconds([&] {
+          definite = factor.append(rows.data(), rows.size() / static_cast<std::size_t>(n),
+                                   static_cast<std::size_t>(n));
+        });
         x = Eigen::VectorXd::LinSpaced(n, -1, 1);
         factor.solve(x.data());
         return time;
@@ -144,20 +147,18 @@ void factorisation(benchmark::State& state) {
 void appended_ring(benchmark::State& state) {
   constexpr Eigen::Index n = 1500, m = 90;
   const Eigen::MatrixXd a = random_spd(n + m);
-  const std::vector<double> whole = row_major(a), first = row_major(a.topLeftCorner(n, n)),
-                            coupling = row_major(a.bottomLeftCorner(m, n)),
-                            diagonal = row_major(a.bottomRightCorner(m, m));
+  const std::vector<double> whole = row_major(a);
   BorderedCholesky grown;
-  bool definite = grown.append({}, first);
+  bool definite = grown.append(whole.data(), n + m, n);
   side_by_side(
       state,
       [&] {
         grown.truncate(n);
-        return seconds([&] { definite = grown.append(coupling, diagonal) && definite; });
+        return seconds([&] { definite = grown.append(whole.data() + n * (n + m), n + m, m) && definite; });
       },
       [&] {
         BorderedCholesky anew;
-        return seconds([&] { definite = anew.append({}, whole) && definite; });
+        return seconds([&] { definite = anew.append(whole.data(), n + m, n + m) && definite; });
       });
   if (!definite) state.SkipWithError("not positive definite");
 }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <random>
+#include <utility>
 
 using namespace conchoid;
 
@@ -18,22 +20,22 @@ Eigen::MatrixXd random_spd(int n) {
   return a * a.transpose() + n * Eigen::MatrixXd::Identity(n, n);
 }
 
-std::vector<double> rows(const Eigen::MatrixXd& a, int first, int count, int first_column, int columns) {
-  std::vector<double> out;
+/// Appends rows first … first + count of A; what is above the diagonal is not to be read.
+bool append(BorderedCholesky& factor, const Eigen::MatrixXd& a, int first, int count) {
+  Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = a.middleRows(first, count);
   for (int i = 0; i < count; ++i)
-    for (int j = 0; j < columns; ++j)
-      out.push_back(a(first + i, first_column + j));
-  return out;
+    rows.row(i).tail(a.cols() - first - i - 1).setConstant(std::nan(""));
+  return factor.append(rows.data(), static_cast<std::size_t>(a.cols()), static_cast<std::size_t>(count));
 }
 
 }  // namespace
 
 TEST(BorderedCholesky, GrownInStepsSolvesLikeTheWhole) {
-  const Eigen::MatrixXd a = random_spd(47);
+  const Eigen::MatrixXd a = random_spd(147);
   BorderedCholesky factor;
-  for (const auto& [first, count] : {std::pair{0, 20}, {20, 1}, {21, 13}, {34, 13}})
-    ASSERT_TRUE(factor.append(rows(a, first, count, 0, first), rows(a, first, count, first, count)));
-  Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(47, -1, 2);
+  for (const auto& [first, count] : {std::pair{0, 20}, {20, 1}, {21, 13}, {34, 113}})
+    ASSERT_TRUE(append(factor, a, first, count));
+  Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(147, -1, 2);
   const Eigen::VectorXd exact = a.llt().solve(b);
   factor.solve(b.data());
   EXPECT_LT((b - exact).norm(), 1e-13 * exact.norm());
@@ -42,9 +44,9 @@ TEST(BorderedCholesky, GrownInStepsSolvesLikeTheWhole) {
 TEST(BorderedCholesky, TruncatedAndGrownAgainIsTheSame) {
   const Eigen::MatrixXd a = random_spd(30);
   BorderedCholesky factor;
-  ASSERT_TRUE(factor.append({}, rows(a, 0, 30, 0, 30)));
+  ASSERT_TRUE(append(factor, a, 0, 30));
   factor.truncate(11);
-  ASSERT_TRUE(factor.append(rows(a, 11, 19, 0, 11), rows(a, 11, 19, 11, 19)));
+  ASSERT_TRUE(append(factor, a, 11, 19));
   Eigen::VectorXd b = Eigen::VectorXd::Ones(30);
   const Eigen::VectorXd exact = a.llt().solve(b);
   factor.solve(b.data());
@@ -54,9 +56,10 @@ TEST(BorderedCholesky, TruncatedAndGrownAgainIsTheSame) {
 TEST(BorderedCholesky, IndefiniteBorderIsRefusedAndLeavesTheFactor) {
   const Eigen::MatrixXd a = random_spd(10);
   BorderedCholesky factor;
-  ASSERT_TRUE(factor.append({}, rows(a, 0, 10, 0, 10)));
-  std::vector<double> coupling(10, 0.0);
-  EXPECT_FALSE(factor.append(coupling, {-1.0}));
+  ASSERT_TRUE(append(factor, a, 0, 10));
+  std::vector<double> row(11, 0.0);
+  row.back() = -1;
+  EXPECT_FALSE(factor.append(row.data(), 11, 1));
   EXPECT_EQ(factor.size(), 10u);
   Eigen::VectorXd b = Eigen::VectorXd::Ones(10);
   const Eigen::VectorXd exact = a.llt().solve(b);

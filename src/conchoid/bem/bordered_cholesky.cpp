@@ -6,6 +6,7 @@
 
 #include "conchoid/bem/blas.hpp"
 #include "conchoid/core/blas_threads.hpp"
+#include "conchoid/core/parallel.hpp"
 
 extern "C" void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda,
                         double* b, const int* ldb, int* info);
@@ -16,36 +17,41 @@ void BorderedCholesky::reserve(std::size_t n) {
   if (n <= capacity_) return;
   const std::size_t grown = std::max(n, capacity_ + capacity_ / 2);
   auto moved = std::make_unique_for_overwrite<double[]>(grown * grown);
-  for (std::size_t j = 0; j < n_; ++j)
-    std::copy_n(&factor_[j * capacity_ + j], n_ - j, &moved[j * grown + j]);
+  for (std::size_t i = 0; i < n_; ++i)
+    std::copy_n(&factor_[i * capacity_], i + 1, &moved[i * grown]);
   factor_ = std::move(moved);
   capacity_ = grown;
 }
 
-bool BorderedCholesky::append(const std::vector<double>& coupling, const std::vector<double>& diagonal) {
+bool BorderedCholesky::append(const double* rows, std::size_t lead, std::size_t count) {
+  constexpr std::size_t rows_of_task = 32;
+  if (count == 0) return true;
   const OneBlasThread one_blas_thread;
-  std::size_t m = 0;
-  while (m * m < diagonal.size())
-    ++m;
-  if (m == 0) return true;
-  reserve(n_ + m);
-  if (n_ == 0) scale_ = unit_scale(diagonal[0]);
-  const int lead = static_cast<int>(capacity_), n = static_cast<int>(n_), k = static_cast<int>(m);
-  double* border = factor_.get() + n_;  // rows n…n+m of the old columns
-  double* corner = factor_.get() + n_ * capacity_ + n_;
-  for (std::size_t j = 0; j < n_; ++j)
-    for (std::size_t i = 0; i < m; ++i)
-      border[j * capacity_ + i] = scale_ * coupling[i * n_ + j];
-  for (std::size_t j = 0; j < m; ++j)
-    for (std::size_t i = j; i < m; ++i)
-      corner[j * capacity_ + i] = scale_ * diagonal[i * m + j];
-  if (n_ > 0) {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, k, n, 1.0, factor_.get(),
-                lead, border, lead);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, k, n, -1.0, border, lead, 1.0, corner, lead);
-  }
-  if (!factor_in_place(corner, m, capacity_)) return false;
-  n_ += m;
+  reserve(n_ + count);
+  if (n_ == 0) scale_ = unit_scale(rows[0]);
+  const int stride = static_cast<int>(capacity_), n = static_cast<int>(n_);
+  double* border = &factor_[n_ * capacity_];
+  double* corner = border + n_;
+  parallel_for(count, rows_of_task, [&](std::size_t begin, std::size_t end) {
+    double* x = border + begin * capacity_;
+    for (std::size_t i = begin; i < end; ++i)
+      std::transform(rows + i * lead, rows + i * lead + n_ + i + 1, border + i * capacity_,
+                     [&](double a) { return scale_ * a; });
+    if (n_ > 0)
+      cblas_dtrsm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit,
+                  static_cast<int>(end - begin), n, 1.0, factor_.get(), stride, x, stride);
+  });
+  if (n_ > 0)
+    parallel_for(count, rows_of_task, [&](std::size_t begin, std::size_t end) {
+      const int own = static_cast<int>(end - begin), before = static_cast<int>(begin);
+      const double* x = border + begin * capacity_;
+      double* c = corner + begin * capacity_;
+      cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, own, before, n, -1.0, x, stride, border, stride,
+                  1.0, c, stride);
+      cblas_dsyrk(CblasRowMajor, CblasLower, CblasNoTrans, own, n, -1.0, x, stride, 1.0, c + begin, stride);
+    });
+  if (!factor_rows_in_place(corner, count, capacity_)) return false;
+  n_ += count;
   return true;
 }
 
@@ -60,7 +66,7 @@ void BorderedCholesky::solve(double* b, std::size_t count) const {
   for (std::size_t i = 0; i < n_ * count; ++i)
     b[i] *= scale_;
   int info = 0;
-  dpotrs_("L", &n, &columns, factor_.get(), &lead, b, &n, &info);
+  dpotrs_("U", &n, &columns, factor_.get(), &lead, b, &n, &info);
 }
 
 }  // namespace conchoid

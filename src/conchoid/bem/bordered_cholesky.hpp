@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace conchoid {
 
@@ -13,11 +12,12 @@ class BorderedCholesky {
  public:
   std::size_t size() const { return n_; }
 
-  /// Appends m unknowns.
-  /// @param coupling  m × size() block of A between new and old unknowns, row-major
-  /// @param diagonal  m × m block of A among the new ones, row-major; its lower triangle is read
+  /// Appends unknowns.
+  /// @param rows   rows of A that belong to them, size() + count numbers each, row-major; what lies above the
+  ///               diagonal is not read
+  /// @param lead   from one row to the next
   /// @return false when the grown matrix is not positive definite; the factor is then as before
-  [[nodiscard]] bool append(const std::vector<double>& coupling, const std::vector<double>& diagonal);
+  [[nodiscard]] bool append(const double* rows, std::size_t lead, std::size_t count);
 
   /// Keeps the first n unknowns.
   void truncate(std::size_t n);
@@ -31,7 +31,7 @@ class BorderedCholesky {
   std::size_t n_ = 0;
   double scale_ = 1;                  // of A: unit_scale of its first entry
   std::size_t capacity_ = 0;          // leading dimension
-  std::unique_ptr<double[]> factor_;  // column-major, lower triangle; nothing is ever put above it
+  std::unique_ptr<double[]> factor_;  // row-major, lower triangle; nothing is ever put above it
 };
 
 }  // namespace conchoid

@@ -89,28 +89,31 @@ CrackSystem::Plan CrackSystem::plan_replacement() const {
 }
 
 void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
+  constexpr std::size_t functions_of_task = 16;
   const std::size_t kept = plan.before.size(), count = plan.order.size();
   std::vector<Function> functions;
-  DenseMatrix S(3 * count, 3 * count);
   for (std::size_t i = 0; i < kept; ++i) {
     functions.push_back(std::move(functions_[plan.before[i]]));
     functions.back().node = space_.functions[plan.order[i]].node;
-    for (std::size_t p = 0; p < 3; ++p) {
-      const double* from = S_.data.data() + (3 * plan.before[i] + p) * S_.columns;
-      double* to = S.data.data() + (3 * i + p) * S.columns;
-      for (std::size_t j = 0; j < kept; ++j)
-        std::copy_n(from + 3 * plan.before[j], 3, to + 3 * j);
-    }
   }
   for (std::size_t w = 0; w < plan.wanted.size(); ++w)
     functions.push_back(make_function(space_, space_.functions[plan.wanted[w]], rows[w]));
   functions_ = std::move(functions);
   reduce_rows(kept);
   const DenseMatrix coupling = couplings(kept);
-  for (std::size_t w = 0; w < plan.wanted.size(); ++w)
-    for (std::size_t j = 0; j <= kept + w; ++j) {
-      const std::size_t i = kept + w;
-      const Mat3& free = space_.functions[plan.wanted[w]].free;
+  DenseMatrix S(3 * count, 3 * count);
+  const auto keep = [&](std::size_t i) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double* from = S_.data.data() + (3 * plan.before[i] + p) * S_.columns;
+      double* to = S.data.data() + (3 * i + p) * S.columns;
+      for (std::size_t j = 0; j < kept; ++j)
+        std::copy_n(from + 3 * plan.before[j], 3, to + 3 * j);
+    }
+  };
+  const auto put = [&](std::size_t w) {
+    const std::size_t i = kept + w;
+    const Mat3& free = space_.functions[plan.wanted[w]].free;
+    for (std::size_t j = 0; j <= i; ++j) {
       Mat3 block =
           block_of(rows[w].enriched, 0, 3 * plan.order[j]) - block_of(coupling, 3 * j, 3 * w).transpose();
       if (j == i && !free.isIdentity(0))  // components that are prescribed stand alone
@@ -118,6 +121,11 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
       S.add(3 * i, 3 * j, block);
       if (j < i) S.add(3 * j, 3 * i, block.transpose());
     }
+  };
+  parallel_for(count, functions_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      i < kept ? keep(i) : put(i - kept);
+  });
   S_ = std::move(S);
   position_.resize(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -166,16 +174,8 @@ DenseMatrix CrackSystem::couplings(std::size_t first) const {
 }
 
 void CrackSystem::eliminate() {
-  const std::size_t before = 3 * factored_, count = size() - before;
-  std::vector<double> coupling, diagonal;
-  coupling.reserve(count * before);
-  diagonal.reserve(count * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double* row = S_.data.data() + (before + i) * S_.columns;
-    coupling.insert(coupling.end(), row, row + before);
-    diagonal.insert(diagonal.end(), row + before, row + before + count);
-  }
-  if (!factor_.append(coupling, diagonal))
+  const std::size_t before = 3 * factored_;
+  if (!factor_.append(S_.data.data() + before * S_.columns, S_.columns, size() - before))
     throw SingularSystem(
         "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
         "touches itself");

@@ -1,13 +1,15 @@
 #include "conchoid/intersect/corefine.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine_merge.hpp"
 #include "conchoid/intersect/inside_pieces.hpp"
@@ -38,6 +40,18 @@ struct Segment {
   std::vector<NodeId> path;  ///< from, crossings with other segments (only if the sheet or the surface passes
                              ///< through itself), to
 };
+
+/// What `of` says for 0 … n−1, side by side.
+template <class Of>
+auto for_each_of(std::size_t n, const Of& of) {
+  constexpr std::size_t of_task = 256;
+  std::vector<decltype(of(n))> all(n);
+  parallel_for(n, of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      all[i] = of(i);
+  });
+  return all;
+}
 
 class Corefinement {
  public:
@@ -112,18 +126,33 @@ class Corefinement {
   }
 
   void find_segments() {
-    for (const auto& [t, s] : overlapping_boxes(surface_, sheet_)) {
-      throw_if_interrupted();
-      intersect(t, s);
+    const auto near = overlapping_boxes(surface_, sheet_);
+    struct Found {
+      std::optional<Segment> segment;
+      bool broken = false;
+    };
+    const auto found = for_each_of(near.size(), [&](std::size_t i) {
+      Found f;
+      f.broken = !intersect(near[i].first, near[i].second, f.segment);
+      return f;
+    });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].broken)
+        throw ComputationError(
+            "surface triangle " + std::to_string(near[i].first.value) + " and crack triangle " +
+            std::to_string(near[i].second.value) +
+            " do not intersect in a segment: is one of them without area or are their nodes not finite?");
+      if (found[i].segment) segments_.push_back(*found[i].segment);
     }
   }
 
-  void intersect(TriId t, TriId s) {
+  /// False: neither in a segment nor not at all.
+  bool intersect(TriId t, TriId s, std::optional<Segment>& segment) const {
     const Points T = surface_triangle(t), S = sheet_triangle(s);
     const auto sheet_side = sides(T, S);
-    if (sheet_side[0] == sheet_side[1] && sheet_side[1] == sheet_side[2]) return;
+    if (sheet_side[0] == sheet_side[1] && sheet_side[1] == sheet_side[2]) return true;
     const auto surface_side = sides(S, T);
-    if (surface_side[0] == surface_side[1] && surface_side[1] == surface_side[2]) return;
+    if (surface_side[0] == surface_side[1] && surface_side[1] == surface_side[2]) return true;
     struct End {
       Key key;
       bool inside_on_right;  ///< of the segment that starts here
@@ -138,13 +167,11 @@ class Corefinement {
         ends.push_back(
             {{Key::surface_edge, {surface_.corners[t][k], surface_.corners[t][j]}, s}, surface_side[j] > 0});
     }
-    if (ends.empty()) return;
-    if (ends.size() != 2 || ends[0].inside_on_right == ends[1].inside_on_right)
-      throw ComputationError(
-          "surface triangle " + std::to_string(t.value) + " and crack triangle " + std::to_string(s.value) +
-          " do not intersect in a segment: is one of them without area or are their nodes not finite?");
+    if (ends.empty()) return true;
+    if (ends.size() != 2 || ends[0].inside_on_right == ends[1].inside_on_right) return false;
     const int from = ends[0].inside_on_right ? 1 : 0;
-    segments_.push_back({t, s, ends[from].key, ends[1 - from].key, {}});
+    segment = Segment{t, s, ends[from].key, ends[1 - from].key, {}};
+    return true;
   }
 
   Points edge_triangle(const Key& key) const {
@@ -164,11 +191,18 @@ class Corefinement {
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     positions_.insert(positions_.end(), surface_.positions.begin(), surface_.positions.end());
     positions_.insert(positions_.end(), sheet_.positions.begin(), sheet_.positions.end());
-    for (const Key& key : keys_) {
+    const auto ends = [&](const Key& key) {
       const auto& points = edge_points(key);
-      const PerturbedPoint &p = points[key.edge.a.index()], &q = points[key.edge.b.index()];
-      crossings_.push_back(crossing(p, q, edge_triangle(key)));
-      positions_.push_back(crossings_.back().point(p, q));
+      return std::pair<const PerturbedPoint&, const PerturbedPoint&>(points[key.edge.a.index()],
+                                                                     points[key.edge.b.index()]);
+    };
+    crossings_ = for_each_of(keys_.size(), [&](std::size_t k) {
+      const auto [p, q] = ends(keys_[k]);
+      return crossing(p, q, edge_triangle(keys_[k]));
+    });
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      const auto [p, q] = ends(keys_[k]);
+      positions_.push_back(crossings_[k].point(p, q));
     }
     for (Segment& s : segments_)
       s.path = {node(s.from), node(s.to)};
@@ -184,17 +218,21 @@ class Corefinement {
   /// Nodes on one edge follow each other in keys_; along_edge_ holds them in their order from edge.a to
   /// edge.b.
   void order_along_edges() {
+    constexpr std::size_t edges_of_task = 64;
     along_edge_.resize(keys_.size());
     std::iota(along_edge_.begin(), along_edge_.end(), 0);
-    for (std::size_t begin = 0; begin < keys_.size();) {
-      std::size_t end = begin + 1;
-      while (end < keys_.size() && keys_[end].kind == keys_[begin].kind &&
-             keys_[end].edge == keys_[begin].edge)
-        ++end;
-      std::sort(along_edge_.begin() + static_cast<long>(begin), along_edge_.begin() + static_cast<long>(end),
-                [&](std::size_t i, std::size_t j) { return i != j && before(i, j); });
-      begin = end;
-    }
+    std::vector<std::size_t> first;  // node of each edge, and past the last one
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+      if (i == 0 || keys_[i].kind != keys_[i - 1].kind || keys_[i].edge != keys_[i - 1].edge)
+        first.push_back(i);
+    const std::size_t edges = first.size();
+    first.push_back(keys_.size());
+    parallel_for(edges, edges_of_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e)
+        std::sort(along_edge_.begin() + static_cast<long>(first[e]),
+                  along_edge_.begin() + static_cast<long>(first[e + 1]),
+                  [&](std::size_t i, std::size_t j) { return i != j && before(i, j); });
+    });
   }
 
   bool before(std::size_t i, std::size_t j) const {
@@ -272,24 +310,25 @@ class Corefinement {
     return back_is_left == goes_back ? 1 : -1;
   }
 
-  /// A sheet that passes through itself draws mouth curves that cross; they get a common node there.
+  /// A sheet that passes through itself draws mouth curves that cross; they get a common node there. A segment
+  /// lies in one triangle of the kind alone, so that all are looked at before any is joined.
   void join_crossings(Key::Kind kind) {
     auto& lists = kind == Key::surface_edge ? on_surface_ : on_sheet_;
     lists.resize((kind == Key::surface_edge ? surface_ : sheet_).triangle_count());
     for (std::size_t i = 0; i < segments_.size(); ++i)
       lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
-    for (std::size_t t = 0; t < lists.size(); ++t) {
-      throw_if_interrupted();
-      const std::vector<std::size_t>& own = lists[TriId(t)];
-      if (own.size() < 2) continue;
-      for (const CrossingSegments& c : crossing_segments(positions_, triangle_cut(kind, TriId(t)))) {
+    const auto crossings = for_each_of(lists.size(), [&](std::size_t t) {
+      return lists[TriId(t)].size() < 2 ? std::vector<CrossingSegments>()
+                                        : crossing_segments(positions_, triangle_cut(kind, TriId(t)));
+    });
+    for (std::size_t t = 0; t < lists.size(); ++t)
+      for (const CrossingSegments& c : crossings[t]) {
         const auto with = [&](const Edge& e) -> Segment& {
-          return segments_[*std::find_if(own.begin(), own.end(),
+          return segments_[*std::find_if(lists[TriId(t)].begin(), lists[TriId(t)].end(),
                                          [&](std::size_t i) { return has_step(segments_[i], e); })];
         };
         join(with(c.first), with(c.second));
       }
-    }
   }
 
   static bool has_step(const Segment& s, const Edge& e) {
@@ -337,16 +376,23 @@ class Corefinement {
     return pieces;
   }
 
+  /// Of all triangles of a kind, what cut_triangle says; nothing of those that are whole.
+  std::vector<std::vector<Corners>> cut_triangles(Key::Kind kind) const {
+    const auto& lists = kind == Key::surface_edge ? on_surface_ : on_sheet_;
+    return for_each_of(lists.size(), [&](std::size_t t) {
+      return lists[TriId(t)].empty() ? std::vector<Corners>() : cut_triangle(kind, TriId(t));
+    });
+  }
+
   void cut_surface() {
-    for (std::size_t i = 0; i < surface_.triangle_count(); ++i) {
-      throw_if_interrupted();
+    const auto cut = cut_triangles(Key::surface_edge);
+    for (std::size_t i = 0; i < cut.size(); ++i) {
       const TriId t(i);
       if (on_surface_[t].empty()) {
         result_.surface.push_back(surface_.corners[t]);
         result_.surface_parent.push_back(t);
-        continue;
       }
-      for (const Corners& p : cut_triangle(Key::surface_edge, t)) {
+      for (const Corners& p : cut[i]) {
         result_.surface.push_back(p);
         result_.surface_parent.push_back(t);
       }
@@ -354,8 +400,8 @@ class Corefinement {
   }
 
   void cut_sheet() {
-    for (std::size_t i = 0; i < sheet_.triangle_count(); ++i) {
-      throw_if_interrupted();
+    const auto cut = cut_triangles(Key::sheet_edge);
+    for (std::size_t i = 0; i < cut.size(); ++i) {
       const TriId s(i);
       if (on_sheet_[s].empty()) {
         Corners c = sheet_.corners[s];
@@ -363,9 +409,8 @@ class Corefinement {
           id = NodeId(id.index() + surface_.node_count());
         sheet_pieces_.push_back(c);
         sheet_parents_.push_back(s);
-        continue;
       }
-      for (const Corners& p : cut_triangle(Key::sheet_edge, s)) {
+      for (const Corners& p : cut[i]) {
         sheet_pieces_.push_back(p);
         sheet_parents_.push_back(s);
       }
@@ -401,14 +446,18 @@ class Corefinement {
     PerturbedPoint far;
     far.x = p.x + 4 * (box.high - p.x).cwiseAbs() + 2 * (box.high - box.low);
     far.id = static_cast<std::uint32_t>(surface_.node_count() + sheet_.node_count());
-    bool inside = false;
-    for (std::size_t t = 0; t < surface_.triangle_count(); ++t) {
-      const Points T = surface_triangle(TriId(t));
-      if (is_beside_ray(p.x, far.x, T)) continue;
-      if (orientation(*T[0], *T[1], *T[2], p) != orientation(*T[0], *T[1], *T[2], far) && pierces(p, far, T))
-        inside = !inside;
-    }
-    return inside;
+    constexpr std::size_t triangles_of_task = 4096;
+    std::atomic<std::size_t> passed = 0;
+    parallel_for(surface_.triangle_count(), triangles_of_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Points T = surface_triangle(TriId(t));
+        if (is_beside_ray(p.x, far.x, T)) continue;
+        if (orientation(*T[0], *T[1], *T[2], p) != orientation(*T[0], *T[1], *T[2], far) &&
+            pierces(p, far, T))
+          ++passed;
+      }
+    });
+    return passed % 2 == 1;
   }
 
   CutComplex keep_inside() {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
 
 namespace conchoid {
@@ -200,14 +201,17 @@ Vec3 exact_mirror_normal(const TriMesh& mesh, TriId t, double& area) {
 IdVector<NodeId, Vec3> seen_by_all(const TriMesh& mesh) {
   constexpr double sliver = 1e-8, clearance = 0.05;
   constexpr int most_steps = 100;
+  constexpr std::size_t triangles_of_task = 4096;
   IdVector<TriId, Vec3> normals(mesh.triangle_count());
   IdVector<TriId, double> areas(mesh.triangle_count());
   IdVector<NodeId, double> largest(mesh.node_count(), 0.0);
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
+  parallel_for(mesh.triangle_count(), triangles_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
+  });
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     for (const NodeId n : mesh.corners[TriId(t)])
       largest[n] = std::max(largest[n], areas[TriId(t)]);
-  }
   const auto counts = [&](TriId t, NodeId n) { return areas[t] > sliver * largest[n]; };
   IdVector<NodeId, Vec3> sum(mesh.node_count(), Vec3::Zero());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)

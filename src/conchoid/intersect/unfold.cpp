@@ -1,12 +1,14 @@
 #include "conchoid/intersect/unfold.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
+#include "conchoid/mesh/node_lists.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
@@ -14,20 +16,24 @@ namespace {
 
 /// Triangles around each node, and the nodes to take the middle of.
 struct Stars {
-  IdVector<NodeId, std::vector<TriId>> triangles;
-  IdVector<NodeId, std::vector<NodeId>> neighbours;
+  NodeLists<TriId> triangles;
+  NodeLists<NodeId> neighbours;
 
-  explicit Stars(const TriMesh& sheet) : triangles(sheet.node_count()), neighbours(sheet.node_count()) {
-    for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-      for (const NodeId n : sheet.corners[TriId(t)])
-        triangles[n].push_back(TriId(t));
+  explicit Stars(const TriMesh& sheet)
+      : triangles(triangles_at_nodes(sheet)), neighbours(smoothing_neighbours(sheet)) {}
+
+ private:
+  /// All of a node inside, those along the boundary of a node on it.
+  static NodeLists<NodeId> smoothing_neighbours(const TriMesh& sheet) {
     const std::vector<EdgeUse> uses = edge_uses(sheet.corners, sheet.node_count());
     IdVector<NodeId, char> on_boundary(sheet.node_count(), 0);
     for (const auto& [e, count] : uses)
       if (count == 1) on_boundary[e.a] = on_boundary[e.b] = 1;
-    for (const auto& [e, count] : uses)
-      for (const auto& [n, m] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
-        if (!on_boundary[n] || count == 1) neighbours[n].push_back(m);
+    return NodeLists<NodeId>(sheet.node_count(), [&](const auto& put) {
+      for (const auto& [e, count] : uses)
+        for (const auto& [n, m] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
+          if (!on_boundary[n] || count == 1) put(n, m);
+    });
   }
 };
 
@@ -38,7 +44,7 @@ constexpr int kCrossingRounds = 6;
 constexpr int kFoldEdges = 4;                // across a fold whose nodes need not be folded themselves
 constexpr std::size_t kMostCrossings = 200;  // looked at in a round
 
-bool is_folded(const TriMesh& sheet, const std::vector<TriId>& star) {
+bool is_folded(const TriMesh& sheet, std::span<const TriId> star) {
   if (star.size() < 2) return false;
   std::vector<Vec3> normals;
   for (const TriId t : star)

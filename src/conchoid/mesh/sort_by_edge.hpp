@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -22,10 +23,20 @@ void sort_by_edge(std::vector<T>& items, std::size_t node_count, const EdgeOf& e
   std::vector<std::size_t> next = begin;
   for (const T& item : unsorted)
     items[next[edge_of(item).a.index()]++] = item;
-  for (std::size_t n = 0; n < node_count; ++n)
-    for (std::size_t i = begin[n] + 1; i < begin[n + 1]; ++i)  // by insertion
-      for (std::size_t k = i; k > begin[n] && edge_of(items[k]).b < edge_of(items[k - 1]).b; --k)
-        std::swap(items[k], items[k - 1]);
+  constexpr std::size_t nodes_of_task = 4096;
+  parallel_for(node_count, nodes_of_task, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = begin[first]; i < begin[last]; ++i) {  // by insertion
+      const T item = items[i];
+      const Edge edge = edge_of(item);
+      std::size_t k = i;
+      for (; k > begin[first]; --k) {
+        const Edge before = edge_of(items[k - 1]);
+        if (before.a != edge.a || !(edge.b < before.b)) break;
+        items[k] = items[k - 1];
+      }
+      if (k < i) items[k] = item;
+    }
+  });
 }
 
 /// How many triangles have an edge.

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
+#include <utility>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
+#include "conchoid/mesh/node_lists.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 #include "conchoid/remesh/flat_triangles.hpp"
 
@@ -134,42 +138,45 @@ void check_edges(const TriMesh& mesh, bool may_be_open, Defects& defects) {
   }
 }
 
-/// Triangles around each node.
-IdVector<NodeId, std::vector<TriId>> stars(const TriMesh& mesh) {
-  IdVector<NodeId, std::vector<TriId>> star(mesh.node_count());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (NodeId n : mesh.corners[TriId(t)])
-      star[n].push_back(TriId(t));
-  return star;
+/// The first triangle of a star that does not hang together with the first of all by edges at the node; their
+/// number, if all do.
+std::size_t first_apart(const TriMesh& mesh, NodeId n, std::span<const TriId> star) {
+  UnionFind groups(star.size());
+  std::vector<std::pair<NodeId, std::size_t>> across;  // other ends of edges at the node, and whose they are
+  for (std::size_t i = 0; i < star.size(); ++i)
+    for (const NodeId other : mesh.corners[star[i]]) {
+      if (other == n) continue;
+      const auto found =
+          std::find_if(across.begin(), across.end(), [&](const auto& known) { return known.first == other; });
+      if (found == across.end())
+        across.emplace_back(other, i);
+      else
+        groups.join(found->second, i);
+    }
+  std::size_t i = 0;
+  while (i < star.size() && groups.root(i) == 0)
+    ++i;
+  return i;
 }
 
 void check_nodes(const TriMesh& mesh, Defects& defects) {
-  const auto star = stars(mesh);
+  constexpr std::size_t nodes_of_task = 2048;
+  const NodeLists<TriId> stars = triangles_at_nodes(mesh);
+  std::vector<std::size_t> apart(mesh.node_count());
+  parallel_for(mesh.node_count(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      apart[n] = first_apart(mesh, NodeId(n), stars[NodeId(n)]);
+  });
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
-    throw_if_interrupted();
-    const auto& triangles = star[NodeId(n)];
-    if (triangles.empty()) {
+    const auto star = stars[NodeId(n)];
+    if (star.empty())
       defects.add(DefectKind::unused_node, "node " + std::to_string(n) + " belongs to no triangle",
                   "remove unused vertices", {}, {NodeId(n)});
-      continue;
-    }
-    // Triangles of the star that share an edge at the node are joined; one fan makes one group.
-    UnionFind groups(triangles.size());
-    std::map<NodeId, std::size_t> across;
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      for (NodeId other : mesh.corners[triangles[i]]) {
-        if (other == NodeId(n)) continue;
-        const auto [found, inserted] = across.try_emplace(other, i);
-        if (!inserted) groups.join(found->second, i);
-      }
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      if (groups.root(i) != 0) {
-        defects.add(DefectKind::pinched_node,
-                    "node " + std::to_string(n) + " joins parts that touch only there (triangles " +
-                        numbers<TriId>({triangles[0], triangles[i]}) + ")",
-                    "split the node or thicken the connection", {triangles[0], triangles[i]}, {NodeId(n)});
-        break;
-      }
+    else if (apart[n] < star.size())
+      defects.add(DefectKind::pinched_node,
+                  "node " + std::to_string(n) + " joins parts that touch only there (triangles " +
+                      numbers<TriId>({star[0], star[apart[n]]}) + ")",
+                  "split the node or thicken the connection", {star[0], star[apart[n]]}, {NodeId(n)});
   }
 }
 

@@ -1,12 +1,18 @@
 #include "conchoid/surface/contacts.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <map>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
 namespace {
 
-using Polygon = std::vector<Vec2>;
+using Polygon = boost::container::small_vector<Vec2, 8>;
 
 double cross2(const Vec2& a, const Vec2& b) {
   return a[0] * b[1] - a[1] * b[0];
@@ -32,24 +38,63 @@ Polygon clipped(const Polygon& p, const Vec2& a, const Vec2& b) {
 }
 
 /// A fracture face of a piece.
+struct Face {
+  std::size_t fragment;
+  TriId triangle;
+};
+
+/// By triangle of the sheets: the fracture faces of all pieces.
+struct FracturedSheets {
+  std::vector<Face> faces;
+  std::vector<std::size_t> first{0};  ///< face of each triangle of a sheet, and past the last one
+
+  explicit FracturedSheets(const std::vector<Fragment>& fragments) {
+    const auto each = [&](const auto& visit) {
+      for (std::size_t f = 0; f < fragments.size(); ++f)
+        for (std::size_t t = 0; t < fragments[f].mesh.triangle_count(); ++t)
+          if (fragments[f].face_kind[t] == FaceKind::fracture)
+            visit(fragments[f].source[t].index(), Face{f, TriId(t)});
+    };
+    each([&](std::size_t source, const Face&) {
+      if (first.size() < source + 2) first.resize(source + 2, 0);
+      ++first[source + 1];
+    });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    faces.resize(first.back());
+    std::vector<std::size_t> next = first;
+    each([&](std::size_t source, const Face& face) { faces[next[source]++] = face; });
+  }
+};
+
+/// A fracture face with an area.
 struct Tile {
   std::size_t fragment;
   Triangle corners;
   Vec3 area;
 };
 
-using PairArea = std::map<std::pair<std::size_t, std::size_t>, double>;
-
 /// Contacts over one triangle of a sheet.
-void add_contacts(const std::vector<Tile>& tiles, PairArea& shared) {
+std::vector<FragmentContact> contacts_over(const std::vector<Fragment>& fragments,
+                                           std::span<const Face> faces) {
+  std::vector<Tile> tiles;
+  for (const Face& face : faces) {
+    const TriMesh& mesh = fragments[face.fragment].mesh;
+    if (const Vec3 area = area_vector(mesh, face.triangle); !area.isZero(0))
+      tiles.push_back({face.fragment, mesh.triangle(face.triangle), area});
+  }
+  std::vector<FragmentContact> contacts;
+  if (tiles.empty()) return contacts;
   const Vec3 normal = std::max_element(tiles.begin(), tiles.end(), [](const Tile& x, const Tile& y) {
                         return x.area.squaredNorm() < y.area.squaredNorm();
                       })->area.normalized();
   for (const Tile& up : tiles)
     for (const Tile& down : tiles)
       if (up.fragment != down.fragment && up.area.dot(normal) > 0 && down.area.dot(normal) < 0)
-        if (const double area = common_area(up.corners, down.corners, normal); area > 0)
-          shared[std::minmax(up.fragment, down.fragment)] += area;
+        if (const double area = common_area(up.corners, down.corners, normal); area > 0) {
+          const auto [first, second] = std::minmax(up.fragment, down.fragment);
+          contacts.push_back({first, second, area});
+        }
+  return contacts;
 }
 
 }  // namespace
@@ -73,17 +118,18 @@ double common_area(const Triangle& a, const Triangle& b, const Vec3& normal) {
 }
 
 std::vector<FragmentContact> fragment_contacts(const std::vector<Fragment>& fragments) {
-  std::map<TriId, std::vector<Tile>> tiles_of;
-  for (std::size_t f = 0; f < fragments.size(); ++f) {
-    const Fragment& piece = fragments[f];
-    for (std::size_t t = 0; t < piece.mesh.triangle_count(); ++t)
-      if (piece.face_kind[t] == FaceKind::fracture)
-        if (const Vec3 area = area_vector(piece.mesh, TriId(t)); !area.isZero(0))
-          tiles_of[piece.source[t]].push_back({f, piece.mesh.triangle(TriId(t)), area});
-  }
-  PairArea shared;
-  for (const auto& [source, tiles] : tiles_of)
-    add_contacts(tiles, shared);
+  constexpr std::size_t sources_of_task = 512;
+  const FracturedSheets sheets(fragments);
+  std::vector<std::vector<FragmentContact>> over(sheets.first.size() - 1);
+  parallel_for(over.size(), sources_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      over[s] = contacts_over(
+          fragments, std::span(sheets.faces).subspan(sheets.first[s], sheets.first[s + 1] - sheets.first[s]));
+  });
+  std::map<std::pair<std::size_t, std::size_t>, double> shared;
+  for (const auto& contacts : over)
+    for (const FragmentContact& c : contacts)
+      shared[{c.first, c.second}] += c.area;
   std::vector<FragmentContact> contacts;
   for (const auto& [pair, area] : shared)
     contacts.push_back({pair.first, pair.second, area});

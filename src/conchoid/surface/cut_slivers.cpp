@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -40,11 +39,8 @@ struct Shape {
 class SliverRemoval {
  public:
   SliverRemoval(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet, double smallest)
-      : cut_(cut), smallest_(smallest), stars_(cut.positions.size()) {
-    for (std::size_t t = 0; t < surface.triangle_count(); ++t)
-      surface_normals_.push_back(reliable_normal(surface, TriId(t)));
-    for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-      sheet_normals_.push_back(reliable_normal(sheet, TriId(t)));
+      : cut_(cut), surface_(surface), sheet_(sheet), smallest_(smallest), stars_(cut.positions.size()) {
+    reserve();
     for (std::size_t t = 0; t < cut.surface.size(); ++t)
       add({cut.surface[TriId(t)], cut.surface_parent[t], false});
     for (std::size_t t = 0; t < cut.sheet.size(); ++t)
@@ -67,6 +63,18 @@ class SliverRemoval {
   }
 
  private:
+  void reserve() {
+    IdVector<NodeId, std::size_t> pieces(cut_.positions.size(), 0);
+    for (const auto* triangles : {&cut_.surface, &cut_.sheet})
+      for (const Corners& c : *triangles)
+        for (const NodeId n : c)
+          ++pieces[n];
+    for (std::size_t n = 0; n < pieces.size(); ++n)
+      stars_[NodeId(n)].reserve(pieces[NodeId(n)]);
+    pieces_.reserve(cut_.surface.size() + cut_.sheet.size());
+  }
+
+  /// Zero: a sliver itself.
   Vec3 reliable_normal(const TriMesh& mesh, TriId t) const {
     return shape(mesh.triangle(t)).height < 1e-3 * smallest_ ? Vec3(Vec3::Zero()) : unit_normal(mesh, t);
   }
@@ -229,7 +237,7 @@ class SliverRemoval {
 
   /// Whether a piece faces as the triangle it is a part of, as far as that can be told.
   bool upright(const Piece& p) const {
-    const Vec3& n = p.sheet ? sheet_normals_[p.parent] : surface_normals_[p.parent];
+    const Vec3 n = reliable_normal(p.sheet ? sheet_ : surface_, p.parent);
     const Triangle t = triangle(p.corners);
     if (n.isZero(0)) return true;
     const Vec3 area = area_vector2(t[0], t[1], t[2]);
@@ -331,23 +339,28 @@ class SliverRemoval {
     cut_.surface_parent.clear();
     cut_.sheet.clear();
     cut_.sheet_parent.clear();
-    std::map<Edge, EdgeUse> uses;
+    IdVector<NodeId, char> on_surface(cut_.positions.size(), 0);
     for (const Piece& p : pieces_) {
       if (!p.alive) continue;
       (p.sheet ? cut_.sheet : cut_.surface).push_back(p.corners);
       (p.sheet ? cut_.sheet_parent : cut_.surface_parent).push_back(p.parent);
-      if (p.sheet)
-        for (int k = 0; k < 3; ++k)
-          ++uses[Edge(p.corners[k], p.corners[(k + 1) % 3])].sheet;
+      if (!p.sheet)
+        for (const NodeId n : p.corners)
+          on_surface[n] = 1;
     }
     cut_.mouth.clear();
-    for (const auto& [edge, count] : uses)
-      if (use(edge.a, edge.b).surface > 0) cut_.mouth.push_back(edge);
+    for (const Corners& c : cut_.sheet)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId a = c[k], b = c[(k + 1) % 3];
+        if (on_surface[a] && on_surface[b] && use(a, b).surface > 0) cut_.mouth.emplace_back(a, b);
+      }
+    std::sort(cut_.mouth.begin(), cut_.mouth.end());
+    cut_.mouth.erase(std::unique(cut_.mouth.begin(), cut_.mouth.end()), cut_.mouth.end());
   }
 
   CutComplex& cut_;
+  const TriMesh &surface_, &sheet_;
   double smallest_;
-  IdVector<TriId, Vec3> surface_normals_, sheet_normals_;  ///< zero: a sliver itself
   std::vector<Piece> pieces_;
   IdVector<NodeId, std::vector<PieceId>> stars_;
   std::vector<PieceId> added_, killed_;
