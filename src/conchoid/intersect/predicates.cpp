@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
+#include "conchoid/mesh/node_lists.hpp"
 
 namespace conchoid {
 namespace {
@@ -195,51 +195,44 @@ Vec3 exact_mirror_normal(const TriMesh& mesh, TriId t, double& area) {
   return area > 0 ? Vec3((even ? 1 : -1) / area * n) : Vec3(Vec3::Zero());
 }
 
-/// Per node a direction on the outer side of all triangles around it, where there is one: a surface that
-/// shrinks against it opens even where two parts of it lie on each other, as the two faces of a crack do.
-/// Elsewhere (a crack front) the sum of the normals.
-IdVector<NodeId, Vec3> seen_by_all(const TriMesh& mesh) {
+/// Unit normals and areas of a mesh's triangles.
+struct Faces {
+  IdVector<TriId, Vec3> normals;
+  IdVector<TriId, double> areas;
+
+  explicit Faces(const TriMesh& mesh) : normals(mesh.triangle_count()), areas(mesh.triangle_count()) {
+    constexpr std::size_t of_task = 4096;
+    parallel_for(mesh.triangle_count(), of_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t)
+        normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
+    });
+  }
+};
+
+/// A direction on the outer side of all triangles of a star, where there is one: a surface that shrinks
+/// against it opens even where two parts of it lie on each other, as the two faces of a crack do. Elsewhere (a
+/// crack front) the sum of the normals. `star` loses the slivers.
+Vec3 seen_by_all(const Faces& faces, std::vector<TriId>& star) {
   constexpr double sliver = 1e-8, clearance = 0.05;
   constexpr int most_steps = 100;
-  constexpr std::size_t triangles_of_task = 4096;
-  IdVector<TriId, Vec3> normals(mesh.triangle_count());
-  IdVector<TriId, double> areas(mesh.triangle_count());
-  IdVector<NodeId, double> largest(mesh.node_count(), 0.0);
-  parallel_for(mesh.triangle_count(), triangles_of_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
-  });
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (const NodeId n : mesh.corners[TriId(t)])
-      largest[n] = std::max(largest[n], areas[TriId(t)]);
-  const auto counts = [&](TriId t, NodeId n) { return areas[t] > sliver * largest[n]; };
-  IdVector<NodeId, Vec3> sum(mesh.node_count(), Vec3::Zero());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (const NodeId n : mesh.corners[TriId(t)])
-      if (counts(TriId(t), n)) sum[n] += normals[TriId(t)];
-  const auto hidden = [&](const Vec3& direction, const Vec3& normal) {
-    return !(direction.dot(normal) > clearance * direction.norm());
+  double largest = 0;
+  for (const TriId t : star)
+    largest = std::max(largest, faces.areas[t]);
+  std::erase_if(star, [&](TriId t) { return !(faces.areas[t] > sliver * largest); });
+  Vec3 sum = Vec3::Zero();
+  for (const TriId t : star)
+    sum += faces.normals[t];
+  const auto hidden = [&](const Vec3& direction, TriId t) {
+    return !(direction.dot(faces.normals[t]) > clearance * direction.norm());
   };
-  std::map<NodeId, std::vector<TriId>> to_improve;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    for (const NodeId n : mesh.corners[TriId(t)])
-      if (counts(TriId(t), n) && hidden(sum[n], normals[TriId(t)])) to_improve[n];
-  for (std::size_t t = 0; t < mesh.triangle_count() && !to_improve.empty(); ++t)
-    for (const NodeId n : mesh.corners[TriId(t)])
-      if (const auto found = to_improve.find(n); found != to_improve.end() && counts(TriId(t), n))
-        found->second.emplace_back(t);
-  for (const auto& [n, around] : to_improve) {
-    Vec3 direction = sum[n];
-    for (int step = 0; step < most_steps; ++step) {
-      const auto worst = std::min_element(around.begin(), around.end(), [&](TriId s, TriId t) {
-        return direction.dot(normals[s]) < direction.dot(normals[t]);
-      });
-      if (!hidden(direction, normals[*worst])) {
-        sum[n] = direction;
-        break;
-      }
-      direction += normals[*worst];
-    }
+  if (std::none_of(star.begin(), star.end(), [&](TriId t) { return hidden(sum, t); })) return sum;
+  Vec3 direction = sum;
+  for (int step = 0; step < most_steps; ++step) {
+    const auto worst = std::min_element(star.begin(), star.end(), [&](TriId s, TriId t) {
+      return direction.dot(faces.normals[s]) < direction.dot(faces.normals[t]);
+    });
+    if (!hidden(direction, *worst)) return direction;
+    direction += faces.normals[*worst];
   }
   return sum;
 }
@@ -247,25 +240,35 @@ IdVector<NodeId, Vec3> seen_by_all(const TriMesh& mesh) {
 }  // namespace
 
 std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std::uint32_t first_id) {
+  constexpr std::size_t nodes_of_task = 2048;
+  const Faces faces(mesh);
+  const NodeLists<TriId> stars = triangles_at_nodes(mesh);
   std::vector<PerturbedPoint> points(mesh.node_count());
-  const IdVector<NodeId, Vec3> normals = seen_by_all(mesh);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i].x = mesh.positions[NodeId(i)];
-    points[i].along = role == Role::surface ? Vec3(-normals[NodeId(i)]) : normals[NodeId(i)];
-    points[i].exponent = role == Role::sheet ? 1 : 4;
-    points[i].id = first_id + static_cast<std::uint32_t>(i);
-  }
-  for (auto c : mesh.corners) {
-    std::sort(c.begin(), c.end());
-    for (int k = 0; k < 3; ++k) {
-      PerturbedPoint& p = points[c[k].index()];
-      for (int j = 0; j < 3; ++j) {
-        if (j == k) continue;
-        const auto key = (std::uint64_t(p.id) << 32) | points[c[j].index()].id;
-        p.across += static_cast<double>(mix(key) >> 54) * (mesh.positions[c[j]] - p.x);
+  const auto place = [&](NodeId n, std::vector<TriId>& star) {
+    PerturbedPoint& p = points[n.index()];
+    p.x = mesh.positions[n];
+    p.exponent = role == Role::sheet ? 1 : 4;
+    p.id = first_id + n.value;
+    for (const TriId t : star) {
+      auto c = mesh.corners[t];
+      std::sort(c.begin(), c.end());
+      for (const NodeId other : c) {
+        if (other == n) continue;
+        const auto key = (std::uint64_t(p.id) << 32) | (first_id + other.value);
+        p.across += static_cast<double>(mix(key) >> 54) * (mesh.positions[other] - p.x);
       }
     }
-  }
+    const Vec3 out = seen_by_all(faces, star);
+    p.along = role == Role::surface ? Vec3(-out) : out;
+  };
+  parallel_for(points.size(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<TriId> star;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto around = stars[NodeId(i)];
+      star.assign(around.begin(), around.end());
+      place(NodeId(i), star);
+    }
+  });
   return points;
 }
 

@@ -163,10 +163,17 @@ CutPieces cut_piece_once(const Piece& piece, const TriMesh& sheet, const SheetCu
   if (cut.sheet.empty() && cut.mouth.empty()) return {{piece}, true};
   remove_slivers(cut, piece.mesh, sheet, kSmallestHeight * mean_edge(sheet));
   split_edges_between_front_nodes(cut);
-  Shells shells = glue(cut);
-  if (!how.slits) shells = glue(cut, slit_pieces(cut, shells));
-  const std::vector<bool> left_out = faces_between_slivers(cut, shells, how.minimum_volume);
-  if (std::find(left_out.begin(), left_out.end(), true) != left_out.end()) shells = glue(cut, left_out);
+  const Gluer gluer(cut);
+  Shells shells = gluer.glue();
+  const auto leave_out = [&](const std::vector<bool>& left_out) {
+    for (std::size_t s = 0; s < left_out.size(); ++s)
+      if (left_out[s] && shells.present[shells.surface_faces + s]) {
+        shells = gluer.glue(left_out);
+        return;
+      }
+  };
+  if (!how.slits) leave_out(slit_pieces(cut, shells));
+  leave_out(faces_between_slivers(cut, shells, how.minimum_volume));
   return {separate(cut, shells, piece, how.first_triangle), shells.overlaps == 0};
 }
 

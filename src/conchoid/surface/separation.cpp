@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "conchoid/core/error.hpp"
@@ -13,18 +14,13 @@
 namespace conchoid {
 namespace {
 
-/// Edge of a face, with its direction there.
-struct HalfEdge {
-  Edge edge;
-  std::uint32_t face;
-  std::uint16_t corner;
-  bool along;  ///< from edge.a to edge.b
-};
+using HalfEdge = Gluer::HalfEdge;
 
 class Gluing {
  public:
-  Gluing(const CutComplex& cut, const std::vector<bool>& left_out)
+  Gluing(const CutComplex& cut, std::span<const HalfEdge> halves, const std::vector<bool>& left_out)
       : cut_(cut),
+        halves_(halves),
         corners_(3 * (cut.surface.size() + 2 * cut.sheet.size())),
         faces_(cut.surface.size() + 2 * cut.sheet.size()) {
     collect_faces(left_out);
@@ -56,21 +52,13 @@ class Gluing {
   }
 
   void glue_edges() {
-    std::vector<HalfEdge> halves;
-    halves.reserve(3 * (shells_.surface_faces + shells_.sheet_faces));
-    for (std::size_t f = 0; f < shells_.surface_faces + shells_.sheet_faces; ++f) {
-      if (!shells_.present[f]) continue;
-      const auto& c = shells_.corners[f];
-      for (int k = 0; k < 3; ++k)
-        halves.push_back({Edge(c[k], c[(k + 1) % 3]), static_cast<std::uint32_t>(f),
-                          static_cast<std::uint16_t>(k), c[k] < c[(k + 1) % 3]});
-    }
-    sort_by_edge(halves, cut_.positions.size(), [](const HalfEdge& h) { return h.edge; });  // then by face
-    for (std::size_t begin = 0; begin < halves.size();) {
-      std::size_t end = begin + 1;
-      while (end < halves.size() && halves[end].edge == halves[begin].edge)
-        ++end;
-      glue_edge(&halves[begin], end - begin);
+    std::vector<HalfEdge> present;
+    for (auto begin = halves_.begin(); begin != halves_.end();) {
+      present.clear();
+      auto end = begin;
+      for (; end != halves_.end() && end->edge == begin->edge; ++end)
+        if (shells_.present[end->face]) present.push_back(*end);
+      if (!present.empty()) glue_edge(present.data(), present.size());
       begin = end;
     }
   }
@@ -220,14 +208,27 @@ class Gluing {
   }
 
   const CutComplex& cut_;
+  std::span<const HalfEdge> halves_;
   UnionFind corners_, faces_;
   Shells shells_;
 };
 
 }  // namespace
 
-Shells glue(const CutComplex& cut, const std::vector<bool>& left_out) {
-  return Gluing(cut, left_out).run();
+Gluer::Gluer(const CutComplex& cut) : cut_(cut) {
+  halves_.reserve(3 * (cut.surface.size() + cut.sheet.size()));
+  std::uint32_t face = 0;
+  for (const auto* pieces : {&cut.surface, &cut.sheet})
+    for (const auto& c : *pieces) {
+      for (std::uint16_t k = 0; k < 3; ++k)
+        halves_.push_back({Edge(c[k], c[(k + 1) % 3]), face, k, c[k] < c[(k + 1) % 3]});
+      ++face;
+    }
+  sort_by_edge(halves_, cut.positions.size(), [](const HalfEdge& h) { return h.edge; });  // then by face
+}
+
+Shells Gluer::glue(const std::vector<bool>& left_out) const {
+  return Gluing(cut_, halves_, left_out).run();
 }
 
 std::size_t count_pieces(const CutComplex& cut) {

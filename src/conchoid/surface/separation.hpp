@@ -32,14 +32,36 @@ struct Shells {
   }
 };
 
-/// Glues the complex; sheet pieces marked in `left_out` (empty: none) are treated as uncut material.
-/// Shells that enclose no material of their own (cavities, cracks that reach no surface) belong to the solid
-/// around them.
-/// Where round-off has made parts of the surface overlap, the sheet may lie inside on both sides of a mouth
-/// edge; there it passes through (`overlaps`): the shells stay closed, but some that should be apart may hang
-/// together.
-/// @throws ComputationError if an edge does not have two surface pieces or none
-Shells glue(const CutComplex& cut, const std::vector<bool>& left_out = {});
+/// Glues the complex, which has to outlive it, as often as wanted: what lies along each edge is found once.
+class Gluer {
+ public:
+  explicit Gluer(const CutComplex& cut);
+
+  /// Sheet pieces marked in `left_out` (empty: none) are treated as uncut material.
+  /// Shells that enclose no material of their own (cavities, cracks that reach no surface) belong to the solid
+  /// around them.
+  /// Where round-off has made parts of the surface overlap, the sheet may lie inside on both sides of a mouth
+  /// edge; there it passes through (`overlaps`): the shells stay closed, but some that should be apart may hang
+  /// together.
+  /// @throws ComputationError if an edge does not have two surface pieces or none
+  Shells glue(const std::vector<bool>& left_out = {}) const;
+
+  /// Edge of a face, with its direction there.
+  struct HalfEdge {
+    Edge edge;
+    std::uint32_t face;
+    std::uint16_t corner;
+    bool along;  ///< from edge.a to edge.b
+  };
+
+ private:
+  const CutComplex& cut_;
+  std::vector<HalfEdge> halves_;  ///< of surface and sheet pieces, by edge, then by face
+};
+
+inline Shells glue(const CutComplex& cut) {
+  return Gluer(cut).glue();
+}
 
 /// Number of pieces the sheet divides the body into (1: it does not separate).
 std::size_t count_pieces(const CutComplex& cut);
