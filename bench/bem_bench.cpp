@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <functional>
 #include <optional>
 #include <random>
 
@@ -108,26 +109,22 @@ Eigen::MatrixXd random_spd(Eigen::Index n) {
   return a * a.transpose() + static_cast<double>(n) * Eigen::MatrixXd::Identity(n, n);
 }
 
-std::vector<double> row_major(const Eigen::MatrixXd& a) {
-  std::vector<double> out(static_cast<std::size_t>(a.size()));
-  Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(out.data(), a.rows(), a.cols()) = a;
-  return out;
+/// Rows of a symmetric matrix from `first` on, which are its columns.
+std::function<const double*(std::size_t)> rows_from(const Eigen::MatrixXd& a, Eigen::Index first) {
+  return [&a, first](std::size_t i) { return a.col(first + static_cast<Eigen::Index>(i)).data(); };
 }
 
 void factorisation(benchmark::State& state) {
   const Eigen::Index n = state.range(0);
   const Eigen::MatrixXd a = random_spd(n);
-  const std::vector<double> rows = row_major(a);
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1, 1), exact = x;
   bool definite = true;
   const Times t = side_by_side(
       state,
       [&] {
         BorderedCholesky factor;
-        const double time = seconds([&] {
-          definite = factor.append(rows.data(), rows.size() / static_cast<std::size_t>(n),
-                                   static_cast<std::size_t>(n));
-        });
+        const double time =
+            seconds([&] { definite = factor.append(static_cast<std::size_t>(n), rows_from(a, 0)); });
         x = Eigen::VectorXd::LinSpaced(n, -1, 1);
         factor.solve(x.data());
         return time;
@@ -147,18 +144,17 @@ void factorisation(benchmark::State& state) {
 void appended_ring(benchmark::State& state) {
   constexpr Eigen::Index n = 1500, m = 90;
   const Eigen::MatrixXd a = random_spd(n + m);
-  const std::vector<double> whole = row_major(a);
   BorderedCholesky grown;
-  bool definite = grown.append(whole.data(), n + m, n);
+  bool definite = grown.append(n, rows_from(a, 0));
   side_by_side(
       state,
       [&] {
         grown.truncate(n);
-        return seconds([&] { definite = grown.append(whole.data() + n * (n + m), n + m, m) && definite; });
+        return seconds([&] { definite = grown.append(m, rows_from(a, n)) && definite; });
       },
       [&] {
         BorderedCholesky anew;
-        return seconds([&] { definite = anew.append(whole.data(), n + m, n + m) && definite; });
+        return seconds([&] { definite = anew.append(n + m, rows_from(a, 0)) && definite; });
       });
   if (!definite) state.SkipWithError("not positive definite");
 }

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <random>
 #include <utility>
+#include <vector>
 
 using namespace conchoid;
 
@@ -20,12 +20,14 @@ Eigen::MatrixXd random_spd(int n) {
   return a * a.transpose() + n * Eigen::MatrixXd::Identity(n, n);
 }
 
-/// Appends rows first … first + count of A; what is above the diagonal is not to be read.
+/// Appends rows first … first + count of A, up to the diagonal.
 bool append(BorderedCholesky& factor, const Eigen::MatrixXd& a, int first, int count) {
-  Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = a.middleRows(first, count);
-  for (int i = 0; i < count; ++i)
-    rows.row(i).tail(a.cols() - first - i - 1).setConstant(std::nan(""));
-  return factor.append(rows.data(), static_cast<std::size_t>(a.cols()), static_cast<std::size_t>(count));
+  std::vector<std::vector<double>> rows;
+  for (int i = first; i < first + count; ++i) {
+    const Eigen::VectorXd row = a.row(i).head(i + 1);
+    rows.emplace_back(row.begin(), row.end());
+  }
+  return factor.append(rows.size(), [&](std::size_t i) { return rows[i].data(); });
 }
 
 }  // namespace
@@ -59,7 +61,7 @@ TEST(BorderedCholesky, IndefiniteBorderIsRefusedAndLeavesTheFactor) {
   ASSERT_TRUE(append(factor, a, 0, 10));
   std::vector<double> row(11, 0.0);
   row.back() = -1;
-  EXPECT_FALSE(factor.append(row.data(), 11, 1));
+  EXPECT_FALSE(factor.append(1, [&](std::size_t) { return row.data(); }));
   EXPECT_EQ(factor.size(), 10u);
   Eigen::VectorXd b = Eigen::VectorXd::Ones(10);
   const Eigen::VectorXd exact = a.llt().solve(b);

@@ -23,20 +23,21 @@ void BorderedCholesky::reserve(std::size_t n) {
   capacity_ = grown;
 }
 
-bool BorderedCholesky::append(const double* rows, std::size_t lead, std::size_t count) {
+bool BorderedCholesky::append(std::size_t count, const std::function<const double*(std::size_t)>& row) {
   constexpr std::size_t rows_of_task = 32;
   if (count == 0) return true;
   const OneBlasThread one_blas_thread;
   reserve(n_ + count);
-  if (n_ == 0) scale_ = unit_scale(rows[0]);
+  if (n_ == 0) scale_ = unit_scale(*row(0));
   const int stride = static_cast<int>(capacity_), n = static_cast<int>(n_);
   double* border = &factor_[n_ * capacity_];
   double* corner = border + n_;
   parallel_for(count, rows_of_task, [&](std::size_t begin, std::size_t end) {
     double* x = border + begin * capacity_;
-    for (std::size_t i = begin; i < end; ++i)
-      std::transform(rows + i * lead, rows + i * lead + n_ + i + 1, border + i * capacity_,
-                     [&](double a) { return scale_ * a; });
+    for (std::size_t i = begin; i < end; ++i) {
+      const double* a = row(i);
+      std::transform(a, a + n_ + i + 1, border + i * capacity_, [&](double v) { return scale_ * v; });
+    }
     if (n_ > 0)
       cblas_dtrsm(CblasRowMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit,
                   static_cast<int>(end - begin), n, 1.0, factor_.get(), stride, x, stride);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace conchoid {
@@ -13,11 +14,10 @@ class BorderedCholesky {
   std::size_t size() const { return n_; }
 
   /// Appends unknowns.
-  /// @param rows   rows of A that belong to them, size() + count numbers each, row-major; what lies above the
-  ///               diagonal is not read
-  /// @param lead   from one row to the next
+  /// @param row  of each of them, its row of A up to the diagonal: size() + i + 1 numbers for the i-th; called by
+  ///             several threads
   /// @return false when the grown matrix is not positive definite; the factor is then as before
-  [[nodiscard]] bool append(const double* rows, std::size_t lead, std::size_t count);
+  [[nodiscard]] bool append(std::size_t count, const std::function<const double*(std::size_t)>& row);
 
   /// Keeps the first n unknowns.
   void truncate(std::size_t n);

@@ -23,7 +23,7 @@ Mat3 block_of(const DenseMatrix& m, std::size_t i, std::size_t j) {
 
 CrackSystem::Function make_function(const EnrichedSpace& space, const EnrichmentFunction& f,
                                     EnrichmentRows& rows) {
-  CrackSystem::Function out{f.kind, f.node, f.key, std::move(rows.body), std::move(rows.sources)};
+  CrackSystem::Function out{f.kind, f.node, f.key, std::move(rows.body), std::move(rows.sources), {}};
   for (const PanelValues& v : f.support)
     if (v.panel >= space.surface_count)
       out.normal += space.panels[v.panel].area * space.panels[v.panel].normal;
@@ -101,35 +101,36 @@ void CrackSystem::append(const Plan& plan, std::vector<EnrichmentRows> rows) {
   functions_ = std::move(functions);
   reduce_rows(kept);
   const DenseMatrix coupling = couplings(kept);
-  DenseMatrix S(3 * count, 3 * count);
-  const auto keep = [&](std::size_t i) {
-    for (std::size_t p = 0; p < 3; ++p) {
-      const double* from = S_.data.data() + (3 * plan.before[i] + p) * S_.columns;
-      double* to = S.data.data() + (3 * i + p) * S.columns;
-      for (std::size_t j = 0; j < kept; ++j)
-        std::copy_n(from + 3 * plan.before[j], 3, to + 3 * j);
-    }
-  };
   const auto put = [&](std::size_t w) {
     const std::size_t i = kept + w;
     const Mat3& free = space_.functions[plan.wanted[w]].free;
+    functions_[i].stiffness = DenseMatrix(3, 3 * (i + 1));
     for (std::size_t j = 0; j <= i; ++j) {
-      Mat3 block =
-          block_of(rows[w].enriched, 0, 3 * plan.order[j]) - block_of(coupling, 3 * j, 3 * w).transpose();
+      Mat3 block = block_of(rows[w].enriched, 0, 3 * plan.order[j]) - block_of(coupling, 3 * w, 3 * j);
       if (j == i && !free.isIdentity(0))  // components that are prescribed stand alone
         block += block.trace() / free.trace() * (Mat3::Identity() - free);
-      S.add(3 * i, 3 * j, block);
-      if (j < i) S.add(3 * j, 3 * i, block.transpose());
+      functions_[i].stiffness.add(0, 3 * j, block);
     }
   };
   parallel_for(count, functions_of_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      i < kept ? keep(i) : put(i - kept);
+      i < kept ? keep_stiffness(plan, i) : put(i - kept);
   });
-  S_ = std::move(S);
   position_.resize(count);
   for (std::size_t i = 0; i < count; ++i)
     position_[plan.order[i]] = i;
+}
+
+// Leaves out what is gone.
+void CrackSystem::keep_stiffness(const Plan& plan, std::size_t i) {
+  if (i < plan.unchanged) return;
+  DenseMatrix kept(3, 3 * (i + 1));
+  for (std::size_t p = 0; p < 3; ++p)
+    for (std::size_t j = 0; j <= i; ++j)
+      std::copy_n(
+          functions_[i].stiffness.data.data() + p * functions_[i].stiffness.columns + 3 * plan.before[j], 3,
+          kept.data.data() + p * kept.columns + 3 * j);
+  functions_[i].stiffness = std::move(kept);
 }
 
 // Rows of some functions, one after the other.
@@ -154,28 +155,30 @@ void CrackSystem::reduce_rows(std::size_t first) {
     std::copy_n(y.data() + 3 * (f - first) * n, 3 * n, functions_[f].rows.data.data());
 }
 
-// Y M Yᵀ of all functions' rows and the columns of those from `first` on.
+// Y M Yᵀ of the rows of the functions from `first` on and the columns of all.
 DenseMatrix CrackSystem::couplings(std::size_t first) const {
-  constexpr std::size_t rows_of_task = 32;
-  const std::size_t n = host_->unknowns(), columns = 3 * (functions_.size() - first);
-  DenseMatrix out(size(), columns);
-  if (n == 0 || columns == 0) return out;
+  constexpr std::size_t functions_of_task = 32;
+  const std::size_t n = host_->unknowns(), count = 3 * (functions_.size() - first);
+  DenseMatrix out(count, size());
+  if (n == 0 || count == 0) return out;
   std::vector<double> x = rows_of(first, functions_.size());
-  host_->solver().middle(x.data(), columns);
+  host_->solver().middle(x.data(), count);
   const OneBlasThread one_blas_thread;
-  parallel_for(functions_.size(), rows_of_task, [&](std::size_t begin, std::size_t end) {
+  parallel_for(functions_.size(), functions_of_task, [&](std::size_t begin, std::size_t end) {
     const std::vector<double> rows = rows_of(begin, end);
-    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(3 * (end - begin)),
-                static_cast<int>(columns), static_cast<int>(n), 1.0, rows.data(), static_cast<int>(n),
-                x.data(), static_cast<int>(n), 0.0, out.data.data() + 3 * begin * columns,
-                static_cast<int>(columns));
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasTrans, static_cast<int>(count),
+                static_cast<int>(3 * (end - begin)), static_cast<int>(n), 1.0, x.data(), static_cast<int>(n),
+                rows.data(), static_cast<int>(n), 0.0, out.data.data() + 3 * begin, static_cast<int>(size()));
   });
   return out;
 }
 
 void CrackSystem::eliminate() {
-  const std::size_t before = 3 * factored_;
-  if (!factor_.append(S_.data.data() + before * S_.columns, S_.columns, size() - before))
+  const auto row = [&](std::size_t i) {
+    const DenseMatrix& stiffness = functions_[factored_ + i / 3].stiffness;
+    return stiffness.data.data() + i % 3 * stiffness.columns;
+  };
+  if (!factor_.append(size() - 3 * factored_, row))
     throw SingularSystem(
         "the cracked body's stiffness is not positive definite: a piece has come off, or the crack mesh "
         "touches itself");

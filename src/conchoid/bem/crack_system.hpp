@@ -28,7 +28,7 @@ struct AppendStatistics {
 ///   R A⁻¹ B = Y M Yᵀ ,   S a = g − Y z ,   x = Pᵀ (z − M Yᵀ a) ,   z = M P J f ,
 /// where Y takes the place of R and each function's columns are solved with once, and half. S is symmetric positive definite; its Cholesky
 /// factor grows and shrinks at its end with the crack.
-/// Memory for m functions: 72 m² bytes for S and as much for its factor, 72 bytes per function and source,
+/// Memory for m functions: 36 m² bytes for S, twice as much for its factor, 72 bytes per function and source,
 /// 24 bytes per function and body unknown.
 class CrackSystem {
  public:
@@ -39,6 +39,7 @@ class CrackSystem {
     std::vector<double> key;
     DenseMatrix rows;            ///< 3 × body unknowns, of Y
     DenseMatrix sources;         ///< 3 × 3·sources
+    DenseMatrix stiffness;       ///< 3 × 3·(functions up to this one), of S
     Vec3 normal = Vec3::Zero();  ///< of the crack, as far as it may open along it
     bool carries_opening() const { return kind != EnrichmentKind::hat; }
   };
@@ -75,6 +76,7 @@ class CrackSystem {
   void append(const Plan& plan, std::vector<EnrichmentRows> rows);
   std::vector<double> rows_of(std::size_t first, std::size_t last) const;
   void reduce_rows(std::size_t first);
+  void keep_stiffness(const Plan& plan, std::size_t i);
   DenseMatrix couplings(std::size_t first) const;
   void eliminate();
 
@@ -85,7 +87,6 @@ class CrackSystem {
   std::vector<LoadSource> sources_;
   std::vector<Function> functions_;
   std::vector<std::size_t> position_;
-  DenseMatrix S_;
   BorderedCholesky factor_;
   std::size_t factored_ = 0;  // functions eliminated
   AppendStatistics statistics_;
