@@ -8,6 +8,8 @@
 #include <limits>
 #include <tuple>
 
+#include "conchoid/core/parallel.hpp"
+
 namespace conchoid {
 namespace {
 
@@ -193,16 +195,26 @@ void CellGrid::cross(const TriMesh& mesh, const std::vector<Vec3>& local, int ax
 // What is inside: from the bottom of each line of cells along the first axis, in and out at every crossing.
 void CellGrid::stand_walls(const TriMesh& body, const TriMesh& sheets) {
   const std::vector<Vec3> of_body = places(body), of_sheets = places(sheets);
+  std::array<std::vector<std::size_t>, 3> surface;  // cells before it, along each axis
+  std::array<std::vector<SheetCrossing>, 3> cracks;
+  parallel_for(6, 1, [&](std::size_t task, std::size_t) {
+    const int axis = static_cast<int>(task % 3);
+    if (task < 3)
+      cross(body, of_body, axis, [&](std::size_t c, double, TriId, bool) { surface[axis].push_back(c); });
+    else
+      cross(sheets, of_sheets, axis, [&](std::size_t c, double depth, TriId t, bool upwards) {
+        cracks[axis].push_back({c, axis, depth, t, upwards});
+      });
+  });
   std::vector<std::uint8_t> odd(inside_.size(), 0);
+  for (const std::size_t c : surface[0])
+    odd[c] ^= 1;
   for (int axis = 0; axis < 3; ++axis) {
-    cross(body, of_body, axis, [&](std::size_t c, double, TriId, bool) {
+    for (const std::size_t c : surface[axis])
       wall_[c] |= static_cast<std::uint8_t>(kSurface << axis);
-      if (axis == 0) odd[c] ^= 1;
-    });
-    cross(sheets, of_sheets, axis, [&](std::size_t c, double depth, TriId t, bool upwards) {
-      wall_[c] |= static_cast<std::uint8_t>(kSheet << axis);
-      crossings_.push_back({c, axis, depth, t, upwards});
-    });
+    for (const SheetCrossing& x : cracks[axis])
+      wall_[x.cell] |= static_cast<std::uint8_t>(kSheet << axis);
+    crossings_.insert(crossings_.end(), cracks[axis].begin(), cracks[axis].end());
   }
   std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
     return std::tie(x.cell, x.axis, x.depth, x.triangle) < std::tie(y.cell, y.axis, y.depth, y.triangle);
@@ -215,6 +227,7 @@ void CellGrid::stand_walls(const TriMesh& body, const TriMesh& sheets) {
 void CellGrid::list_inside_cells() {
   const std::uint8_t* const first = inside_.data();
   const std::uint8_t* const end = first + inside_.size();
+  inside_cells_.reserve(static_cast<std::size_t>(std::count(first, end, 1)));
   for (const std::uint8_t* at = first; at != end; ++at) {
     if (*at == 0) {
       at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conchoid/crack/front/strip_runs.hpp"
 #include "conchoid/crack/length_factors.hpp"
@@ -280,15 +281,16 @@ std::array<NodeId, 3> smallest_first(std::array<NodeId, 3> corners) {
 }
 
 void append_faces(TriMesh& mesh, const Draft& draft, const std::vector<NodeId>& ids) {
-  std::vector<std::array<NodeId, 3>> faces;
-  for (const auto& face : draft.faces)
-    faces.push_back(smallest_first({ids[face.corners[0]], ids[face.corners[1]], ids[face.corners[2]]}));
-  const auto sorted = [](std::array<NodeId, 3> c) {
-    std::sort(c.begin(), c.end());
-    return c;
-  };
-  std::sort(faces.begin(), faces.end(), [&](const auto& x, const auto& y) { return sorted(x) < sorted(y); });
-  mesh.corners.insert(mesh.corners.end(), faces.begin(), faces.end());
+  using Corners = std::array<NodeId, 3>;
+  std::vector<std::pair<Corners, Corners>> faces;  // ids ascending; as the face runs
+  for (const auto& face : draft.faces) {
+    const Corners c = smallest_first({ids[face.corners[0]], ids[face.corners[1]], ids[face.corners[2]]});
+    faces.emplace_back(c, c);
+    std::sort(faces.back().first.begin(), faces.back().first.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  for (const auto& [ascending, corners] : faces)
+    mesh.corners.push_back(corners);
 }
 
 }  // namespace
