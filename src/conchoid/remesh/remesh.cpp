@@ -8,6 +8,7 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/remesh/decimate.hpp"
@@ -160,11 +161,15 @@ class Remesher {
       double length;
       Edge edge;
     };
+    constexpr std::size_t edges_of_task = 256;
     std::vector<Entry> entries;
-    throw_if_interrupted();
     for (const Edge& e : mesh_.edges())
-      if (const double length = relative_length(e); length > low && length < high)
-        entries.push_back({length, e});
+      entries.push_back({0, e});
+    parallel_for(entries.size(), edges_of_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        entries[i].length = relative_length(entries[i].edge);
+    });
+    std::erase_if(entries, [&](const Entry& x) { return !(x.length > low && x.length < high); });
     std::stable_sort(entries.begin(), entries.end(), [&](const Entry& x, const Entry& y) {
       return longest_first ? x.length > y.length : x.length < y.length;
     });
@@ -336,18 +341,20 @@ void remesh_isotropically(Remesher& remesher, std::size_t target) {
 }
 
 double one_way_distance(const TriMesh& from, const ClosestPointTree& to) {
-  double squared = 0;
-  auto look = [&](const Vec3& x) { squared = std::max(squared, to.closest(x).squared_distance); };
-  for (const Vec3& x : from.positions)
-    look(x);
+  constexpr std::size_t samples_of_task = 512;
+  std::vector<Vec3> samples(from.positions.begin(), from.positions.end());
   for (std::size_t t = 0; t < from.triangle_count(); ++t) {
-    throw_if_interrupted();
     const Triangle x = from.triangle(TriId(t));
-    look(centroid(from, TriId(t)));
+    samples.push_back(centroid(from, TriId(t)));
     for (std::size_t k = 0; k < 3; ++k)
-      look(0.5 * (x[k] + x[(k + 1) % 3]));
+      samples.push_back(0.5 * (x[k] + x[(k + 1) % 3]));
   }
-  return std::sqrt(squared);
+  std::vector<double> squared(samples.size());
+  parallel_for(samples.size(), samples_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      squared[i] = to.closest(samples[i]).squared_distance;
+  });
+  return squared.empty() ? 0 : std::sqrt(*std::max_element(squared.begin(), squared.end()));
 }
 
 }  // namespace

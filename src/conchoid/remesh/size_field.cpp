@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 
 namespace conchoid {
 namespace {
@@ -50,12 +50,14 @@ SizeField::SizeField(const TriMesh& samples, double edge)
     : samples_(samples), surface_(samples), size_(samples.node_count(), 1.0) {
   const auto normals = node_normals(samples);
   const double largest = edge / edges_per_radius;
-  for (std::size_t i = 0; i < samples.node_count(); ++i) {
-    throw_if_interrupted();
-    const NodeId n(i);
-    const double radius = touching_ball(surface_, samples.positions[n], -normals[n], largest);
-    size_[n] = std::clamp(radius / largest, smallest_size, 1.0);
-  }
+  constexpr std::size_t nodes_of_task = 64;
+  parallel_for(samples.node_count(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const NodeId n(i);
+      const double radius = touching_ball(surface_, samples.positions[n], -normals[n], largest);
+      size_[n] = std::clamp(radius / largest, smallest_size, 1.0);
+    }
+  });
   limit_growth(edge);
 }
 
