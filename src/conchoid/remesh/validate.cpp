@@ -13,6 +13,7 @@
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/sort_by_edge.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 #include "conchoid/remesh/flat_triangles.hpp"
 
@@ -78,9 +79,16 @@ void check_duplicates(const TriMesh& mesh, Defects& defects) {
     keys.push_back({mesh.corners[TriId(t)], TriId(t)});
     std::sort(keys.back().nodes.begin(), keys.back().nodes.end());
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& x, const Key& y) {
-    return x.nodes != y.nodes ? x.nodes < y.nodes : x.triangle < y.triangle;
-  });
+  sort_by_edge(keys, mesh.node_count(), [](const Key& k) { return Edge(k.nodes[0], k.nodes[1]); });
+  const auto same_edge = [&](std::size_t i, std::size_t j) {
+    return keys[i].nodes[0] == keys[j].nodes[0] && keys[i].nodes[1] == keys[j].nodes[1];
+  };
+  for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+    while (end < keys.size() && same_edge(begin, end))
+      ++end;
+    std::stable_sort(keys.begin() + static_cast<long>(begin), keys.begin() + static_cast<long>(end),
+                     [](const Key& x, const Key& y) { return x.nodes[2] < y.nodes[2]; });
+  }
   for (std::size_t i = 0; i + 1 < keys.size(); ++i)
     if (keys[i].nodes == keys[i + 1].nodes)
       defects.add(
@@ -104,19 +112,16 @@ std::vector<Side> sorted_sides(const TriMesh& mesh) {
       const auto& c = mesh.corners[TriId(t)];
       sides.push_back({Edge(c[k], c[(k + 1) % 3]), c[k], TriId(t)});
     }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    throw_if_interrupted();
-    return x.edge < y.edge;
-  });
+  sort_by_edge(sides, mesh.node_count(), [](const Side& s) { return s.edge; });  // then by triangle
   return sides;
 }
 
 void check_edges(const TriMesh& mesh, bool may_be_open, Defects& defects) {
   const std::vector<Side> sides = sorted_sides(mesh);
-  for (std::size_t i = 0; i < sides.size();) {
-    std::size_t end = i + 1;
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].edge == sides[i].edge)
       ++end;
+    if (end - i == 2 && sides[i].from != sides[i + 1].from) continue;
     std::vector<TriId> triangles;
     for (std::size_t k = i; k < end; ++k)
       triangles.push_back(sides[k].triangle);
@@ -130,11 +135,10 @@ void check_edges(const TriMesh& mesh, bool may_be_open, Defects& defects) {
       defects.add(DefectKind::crowded_edge,
                   edge + " has more than two triangles (" + numbers(triangles) + ")",
                   "remove inner walls so that every edge has two triangles", triangles, nodes);
-    if (end - i == 2 && sides[i].from == sides[i + 1].from)
+    if (end - i == 2)
       defects.add(DefectKind::inconsistent_edge,
                   "triangles " + numbers(triangles) + " are oriented differently (at " + edge + ")",
                   "flip one of them, or recompute the orientation of all faces", triangles, nodes);
-    i = end;
   }
 }
 

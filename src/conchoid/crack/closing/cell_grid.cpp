@@ -235,16 +235,16 @@ void CellGrid::list_inside_cells() {
     }
     inside_cells_.push_back({static_cast<std::uint32_t>(at - first), {-1, -1, -1}});
   }
-  std::array<std::size_t, 3> ahead{};
-  for (InsideCell& c : inside_cells_)
-    for (int axis = 0; axis < 3; ++axis) {
+  parallel_for(3, 1, [&](std::size_t axis, std::size_t) {
+    std::size_t ahead = 0;
+    for (InsideCell& c : inside_cells_) {
       const std::size_t next = c.cell + step_[axis];
-      std::size_t& at = ahead[axis];
-      while (at < inside_cells_.size() && inside_cells_[at].cell < next)
-        ++at;
-      if (at < inside_cells_.size() && inside_cells_[at].cell == next)
-        c.next[axis] = static_cast<std::int32_t>(at);
+      while (ahead < inside_cells_.size() && inside_cells_[ahead].cell < next)
+        ++ahead;
+      if (ahead < inside_cells_.size() && inside_cells_[ahead].cell == next)
+        c.next[axis] = static_cast<std::int32_t>(ahead);
     }
+  });
 }
 
 }  // namespace conchoid
