@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "conchoid/core/bytes.hpp"
+#include "conchoid/core/error.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/prepared_body.hpp"
 #include "conchoid/sim/run.hpp"
@@ -126,7 +127,26 @@ TEST(PreparedCache, RemeshedSurfacesAreKept) {
     const TriMesh kept = mesh(folder / "cache");
     EXPECT_EQ(kept.positions, plain.positions);
     EXPECT_EQ(kept.corners, plain.corners);
-    EXPECT_EQ(files_in(folder / "cache").size(), 1u);
+    EXPECT_EQ(files_in(folder / "cache").size(), 2u) << "that it is sound, and what was made of it";
+  }
+}
+
+TEST(PreparedCache, OnlySoundSurfacesAreTakenOnTrust) {
+  const TemporaryFolder folder;
+  const fs::path cache = folder / "cache";
+  TriMesh mesh = built_in_model("cylinder").mesh;
+  const auto take = [&] {
+    const std::string file = test::write_mesh_in(folder, "body.ply", mesh);
+    return scene_body(scene_of(test::mesh_body_text(file), "", cache)).surface.triangle_count();
+  };
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(take(), mesh.triangle_count());
+    EXPECT_EQ(files_in(cache).size(), 1u);
+  }
+  mesh.corners.pop_back();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_THROW(take(), InputError);
+    EXPECT_EQ(files_in(cache).size(), 1u);
   }
 }
 

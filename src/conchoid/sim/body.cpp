@@ -16,7 +16,7 @@
 #include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/remesh/weld.hpp"
-#include "conchoid/sim/kept_remesh.hpp"
+#include "conchoid/sim/kept_surface.hpp"
 
 namespace conchoid {
 namespace {
@@ -73,7 +73,7 @@ Body with_elements(Body body, TriMesh surface) {
 
 Body body_from_file(const std::filesystem::path& path, const BodySettings& settings) {
   WeldReport weld;
-  AttributedMesh read = welded_if_it_helps(read_surface(path), weld);
+  AttributedMesh read = kept_welded_if_it_helps(read_surface(path), weld, settings.cache.get());
   try {
     if (!weld.bounds_body) require_valid_body(read.mesh, path.string());
   } catch (const InputError& error) {

@@ -1,7 +1,9 @@
-#include "conchoid/sim/kept_remesh.hpp"
+#include "conchoid/sim/kept_surface.hpp"
 
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "conchoid/core/bytes.hpp"
 #include "conchoid/remesh/remesh.hpp"
@@ -34,6 +36,21 @@ TriMesh mesh_of(const std::string& bytes) {
 }
 
 }  // namespace
+
+AttributedMesh kept_welded_if_it_helps(AttributedMesh surface, WeldReport& report, const ByteCache* cache) {
+  if (!cache) return welded_if_it_helps(std::move(surface), report);
+  ByteWriter all;
+  put(all, surface.mesh);
+  const std::string name = cache_name("sound", all.bytes());
+  if (cache->recall(name)) {
+    report = {};
+    report.bounds_body = true;
+    return surface;
+  }
+  surface = welded_if_it_helps(std::move(surface), report);
+  if (report.bounds_body && report.nodes == 0) cache->keep(name, {});
+  return surface;
+}
 
 TriMesh kept_remesh(const TriMesh& surface, int triangles, const RemeshSettings& settings,
                     const ByteCache* cache) {
