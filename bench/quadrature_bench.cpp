@@ -30,7 +30,8 @@ std::vector<Pair> far_pairs_of_a_sphere(double tolerance) {
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < panels.size() * panels.size(); i += 97) {
     const Panel &x = panels[i / panels.size()], &y = panels[i % panels.size()];
-    if (shared_corners(x, y).count == 0 && far_degrees(Layer::single, x, y, tolerance).enough())
+    if (shared_corners(x, y).count == 0 &&
+        far_degrees(FarLimits(tolerance / 2), Layer::single, x, y).enough())
       pairs.push_back({x, y});
   }
   return pairs;

@@ -80,7 +80,8 @@ struct FarDegrees {
   int x = 0, y = 0;
   bool enough() const { return x > 0 && y > 0; }
 };
-FarDegrees far_degrees(Layer layer, const Panel& x, const Panel& y, double tolerance);
+/// @param limits  of half the tolerance
+FarDegrees far_degrees(const FarLimits& limits, Layer layer, const Panel& x, const Panel& y);
 Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees);
 Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees);
 

@@ -156,10 +156,10 @@ bool fills_lanes(const RuleArrays& a, const RuleArrays& b) {
 
 }  // namespace
 
-FarDegrees far_degrees(Layer layer, const Panel& x, const Panel& y, double tolerance) {
+FarDegrees far_degrees(const FarLimits& limits, Layer layer, const Panel& x, const Panel& y) {
   const double distance = (x.center - y.center).norm();
-  return {far_degree(layer, x.radius, distance - y.radius, tolerance / 2),
-          far_degree(layer, y.radius, distance - x.radius, tolerance / 2)};
+  return {limits.degree(layer, x.radius, distance - y.radius),
+          limits.degree(layer, y.radius, distance - x.radius)};
 }
 
 Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees) {

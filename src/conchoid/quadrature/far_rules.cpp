@@ -1,7 +1,9 @@
 #include "conchoid/quadrature/far_rules.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace conchoid {
 
@@ -24,17 +26,55 @@ constexpr std::array<DegreeBound, 7> bounds = {{{2, 0.033, 0.18},
                                                 {10, 7e-5, 3.5e-4},
                                                 {12, 1.6e-5, 7e-5}}};
 
+double factor(const DegreeBound& bound, Layer layer) {
+  return layer == Layer::single ? bound.single : bound.dbl;
+}
+
+/// rᵈ⁺¹ for the degrees d of the rules.
+std::array<double, bounds.size()> powers(double r) {
+  const double r2 = r * r, r3 = r2 * r, r5 = r3 * r2, r6 = r3 * r3;
+  return {r3, r5, r6, r5 * r2, r6 * r3, r6 * r5, r6 * r5 * r2};
+}
+
+/// The largest number of 0 … 1 for which a property holds that all smaller ones have, 0 among them.
+template <class Holds>
+double largest_with(const Holds& holds) {
+  auto low = std::bit_cast<std::uint64_t>(0.0), high = std::bit_cast<std::uint64_t>(1.0);
+  if (holds(1.0)) return 1;
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (holds(std::bit_cast<double>(middle)) ? low : high) = middle;
+  }
+  return std::bit_cast<double>(low);
+}
+
 }  // namespace
 
 int far_degree(Layer layer, double radius, double distance, double tolerance, int density) {
   if (!(distance > radius)) return 0;
-  const double r = radius / distance, r2 = r * r, r3 = r2 * r, r5 = r3 * r2, r6 = r3 * r3;
-  const std::array<double, bounds.size()> power = {r3, r5, r6, r5 * r2, r6 * r3, r6 * r5, r6 * r5 * r2};
+  const double r = radius / distance;
+  const auto power = powers(r);
   for (; density > 0; --density)
     tolerance *= r;
   for (std::size_t i = 0; i < bounds.size(); ++i)
-    if (power[i] * (layer == Layer::single ? bounds[i].single : bounds[i].dbl) <= tolerance)
-      return bounds[i].degree;
+    if (power[i] * factor(bounds[i], layer) <= tolerance) return bounds[i].degree;
+  return 0;
+}
+
+FarLimits::FarLimits(double tolerance) {
+  static_assert(kRules == bounds.size());
+  for (const Layer layer : {Layer::single, Layer::dbl})
+    for (std::size_t i = 0; i < kRules; ++i)
+      largest_[static_cast<std::size_t>(layer)][i] =
+          largest_with([&](double r) { return powers(r)[i] * factor(bounds[i], layer) <= tolerance; });
+}
+
+int FarLimits::degree(Layer layer, double radius, double distance) const {
+  if (!(distance > radius)) return 0;
+  const double r = radius / distance;
+  const auto& largest = largest_[static_cast<std::size_t>(layer)];
+  for (std::size_t i = 0; i < kRules; ++i)
+    if (r <= largest[i]) return bounds[i].degree;
   return 0;
 }
 

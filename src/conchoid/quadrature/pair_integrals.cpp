@@ -44,7 +44,7 @@ DoubleLayerPair to_pair(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
-Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
+Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance, const FarLimits& limits) {
   switch (shared_corners(x, y).count) {
     case 3:
       return coincident_single_layer(x);
@@ -55,7 +55,7 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance) {
     default:
       break;
   }
-  const FarDegrees degrees = far_degrees(Layer::single, x, y, tolerance);
+  const FarDegrees degrees = far_degrees(limits, Layer::single, x, y);
   // From there on a rule on one panel with the closed form of the other is cheaper than rules on both.
   constexpr int costly = 10;
   const bool far = degrees.enough() && (degrees.x < costly || degrees.y < costly);
@@ -159,15 +159,15 @@ TouchingPair touching_pair(const Panel& x, const Panel& y) {
   return pair;
 }
 
-PairIntegrator::PairIntegrator(double tolerance) : tolerance_(tolerance) {
+PairIntegrator::PairIntegrator(double tolerance) : tolerance_(tolerance), far_(tolerance / 2) {
   if (!(tolerance >= 1e-11 && tolerance <= 1e-3)) {
     throw InputError("tolerance of the pair integrals must lie between 1e-11 and 1e-3");
   }
 }
 
 SingleLayerPair PairIntegrator::single_layer(const Panel& x, const Panel& y) const {
-  return to_pair(in_order(x, y) ? ordered_single_layer(x, y, tolerance_)
-                                : ordered_single_layer(y, x, tolerance_));
+  return to_pair(in_order(x, y) ? ordered_single_layer(x, y, tolerance_, far_)
+                                : ordered_single_layer(y, x, tolerance_, far_));
 }
 
 DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) const {
@@ -175,7 +175,7 @@ DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) con
   if (shared == 3) return {};
   if (shared > 0) return to_pair(touching_double_layer(touching_pair(x, y), shared, tolerance_));
   if (in_one_plane(x, y)) return {};
-  const FarDegrees degrees = far_degrees(Layer::dbl, x, y, tolerance_);
+  const FarDegrees degrees = far_degrees(far_, Layer::dbl, x, y);
   return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
 }
 

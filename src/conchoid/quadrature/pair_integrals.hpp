@@ -4,6 +4,7 @@
 
 #include "conchoid/core/ids.hpp"
 #include "conchoid/core/vec.hpp"
+#include "conchoid/quadrature/far_rules.hpp"
 
 namespace conchoid {
 
@@ -42,6 +43,7 @@ class PairIntegrator {
 
  private:
   double tolerance_;
+  FarLimits far_;
 };
 
 /// Whether the pair (x, y) has the integrals of (known_x, known_y) to the last bit, where the corners of the
