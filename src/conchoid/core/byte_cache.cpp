@@ -14,15 +14,17 @@ namespace {
 constexpr std::string_view kMagic = "CNCHKEPT";
 constexpr std::uint32_t kVersion = 1;
 
-std::string content_of(const std::string& file, const std::string& name) {
+/// What is at the end of the file; in place, as it may be most of the memory.
+std::string content_of(std::string file, const std::string& name) {
   ByteReader in(file);
   if (in.get_raw(kMagic.size()) != kMagic) throw InputError("is not a file of this cache");
   if (in.get<std::uint32_t>() != kVersion) throw InputError("has another version");
   const auto hash = in.get<std::uint64_t>();
   if (in.get_text() != name) throw InputError("bears another's name");
-  std::string content = in.get_text();
+  const std::string_view content = in.get_raw(in.get<std::uint64_t>());
   if (in.left() > 0 || hash_bytes(content) != hash) throw InputError("is damaged");
-  return content;
+  file.erase(0, file.size() - content.size());
+  return file;
 }
 
 }  // namespace
