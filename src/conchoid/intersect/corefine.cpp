@@ -127,15 +127,8 @@ class Corefinement {
 
   void find_segments() {
     const auto near = overlapping_boxes(surface_, sheet_);
-    struct Found {
-      std::optional<Segment> segment;
-      bool broken = false;
-    };
-    const auto found = for_each_of(near.size(), [&](std::size_t i) {
-      Found f;
-      f.broken = !intersect(near[i].first, near[i].second, f.segment);
-      return f;
-    });
+    const auto found =
+        for_each_of(near.size(), [&](std::size_t i) { return intersect(near[i].first, near[i].second); });
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (found[i].broken)
         throw ComputationError(
@@ -146,13 +139,16 @@ class Corefinement {
     }
   }
 
-  /// False: neither in a segment nor not at all.
-  bool intersect(TriId t, TriId s, std::optional<Segment>& segment) const {
+  struct Intersection {
+    std::optional<Segment> segment;  ///< none where they do not intersect
+    bool broken = false;             ///< neither in a segment nor not at all
+  };
+  Intersection intersect(TriId t, TriId s) const {
     const Points T = surface_triangle(t), S = sheet_triangle(s);
     const auto sheet_side = sides(T, S);
-    if (sheet_side[0] == sheet_side[1] && sheet_side[1] == sheet_side[2]) return true;
+    if (sheet_side[0] == sheet_side[1] && sheet_side[1] == sheet_side[2]) return {};
     const auto surface_side = sides(S, T);
-    if (surface_side[0] == surface_side[1] && surface_side[1] == surface_side[2]) return true;
+    if (surface_side[0] == surface_side[1] && surface_side[1] == surface_side[2]) return {};
     struct End {
       Key key;
       bool inside_on_right;  ///< of the segment that starts here
@@ -167,11 +163,11 @@ class Corefinement {
         ends.push_back(
             {{Key::surface_edge, {surface_.corners[t][k], surface_.corners[t][j]}, s}, surface_side[j] > 0});
     }
-    if (ends.empty()) return true;
-    if (ends.size() != 2 || ends[0].inside_on_right == ends[1].inside_on_right) return false;
+    if (ends.empty()) return {};
+    if (ends.size() != 2 || ends[0].inside_on_right == ends[1].inside_on_right)
+      return {.segment = {}, .broken = true};
     const int from = ends[0].inside_on_right ? 1 : 0;
-    segment = Segment{t, s, ends[from].key, ends[1 - from].key, {}};
-    return true;
+    return {.segment = Segment{t, s, ends[from].key, ends[1 - from].key, {}}};
   }
 
   Points edge_triangle(const Key& key) const {

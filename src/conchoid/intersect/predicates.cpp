@@ -6,7 +6,7 @@
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
-#include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
 namespace {

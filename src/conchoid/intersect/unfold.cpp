@@ -8,7 +8,7 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/manifold_part.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
-#include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {

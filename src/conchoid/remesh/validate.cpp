@@ -12,7 +12,7 @@
 #include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/corners.hpp"
-#include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 #include "conchoid/mesh/winding_number.hpp"
 #include "conchoid/remesh/flat_triangles.hpp"

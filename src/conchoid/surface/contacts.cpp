@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <map>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
 namespace {
@@ -44,27 +44,16 @@ struct Face {
 };
 
 /// By triangle of the sheets: the fracture faces of all pieces.
-struct FracturedSheets {
-  std::vector<Face> faces;
-  std::vector<std::size_t> first{0};  ///< face of each triangle of a sheet, and past the last one
-
-  explicit FracturedSheets(const std::vector<Fragment>& fragments) {
-    const auto each = [&](const auto& visit) {
-      for (std::size_t f = 0; f < fragments.size(); ++f)
-        for (std::size_t t = 0; t < fragments[f].mesh.triangle_count(); ++t)
-          if (fragments[f].face_kind[t] == FaceKind::fracture)
-            visit(fragments[f].source[t].index(), Face{f, TriId(t)});
-    };
-    each([&](std::size_t source, const Face&) {
-      if (first.size() < source + 2) first.resize(source + 2, 0);
-      ++first[source + 1];
-    });
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    faces.resize(first.back());
-    std::vector<std::size_t> next = first;
-    each([&](std::size_t source, const Face& face) { faces[next[source]++] = face; });
-  }
-};
+IdLists<TriId, Face> faces_of_sheets(const std::vector<Fragment>& fragments) {
+  const auto each = [&](const auto& put) {
+    for (std::size_t f = 0; f < fragments.size(); ++f)
+      for (std::size_t t = 0; t < fragments[f].mesh.triangle_count(); ++t)
+        if (fragments[f].face_kind[t] == FaceKind::fracture) put(fragments[f].source[t], Face{f, TriId(t)});
+  };
+  std::size_t sources = 0;
+  each([&](TriId source, const Face&) { sources = std::max(sources, source.index() + 1); });
+  return IdLists<TriId, Face>(sources, each);
+}
 
 /// A fracture face with an area.
 struct Tile {
@@ -119,12 +108,11 @@ double common_area(const Triangle& a, const Triangle& b, const Vec3& normal) {
 
 std::vector<FragmentContact> fragment_contacts(const std::vector<Fragment>& fragments) {
   constexpr std::size_t sources_of_task = 512;
-  const FracturedSheets sheets(fragments);
-  std::vector<std::vector<FragmentContact>> over(sheets.first.size() - 1);
+  const IdLists<TriId, Face> faces = faces_of_sheets(fragments);
+  std::vector<std::vector<FragmentContact>> over(faces.size());
   parallel_for(over.size(), sources_of_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      over[s] = contacts_over(
-          fragments, std::span(sheets.faces).subspan(sheets.first[s], sheets.first[s + 1] - sheets.first[s]));
+      over[s] = contacts_over(fragments, faces[TriId(s)]);
   });
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
   for (const auto& contacts : over)

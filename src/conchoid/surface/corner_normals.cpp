@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "conchoid/core/parallel.hpp"
-#include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
 namespace {

@@ -1,4 +1,4 @@
-#include "conchoid/mesh/node_lists.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 #include <gtest/gtest.h>
 
