@@ -47,7 +47,14 @@ std::vector<Pair> pairs_of(Layout layout, double tolerance) {
   return pairs;
 }
 
-// The oracle takes every `stride`-th pair.
+std::vector<PanelPair> side_by_side_of(const std::vector<Pair>& pairs) {
+  std::vector<PanelPair> all;
+  for (const Pair& p : pairs)
+    all.push_back({&p.x, &p.y});
+  return all;
+}
+
+// `fast` takes all pairs, the oracle every `stride`-th.
 template <class Fast, class Slow, class Error>
 void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast fast, Slow slow,
                    Error error) {
@@ -60,8 +67,7 @@ void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast
       [&] {
         return seconds([&] {
                  for (std::size_t round = 0; round < rounds; ++round)
-                   for (const Pair& p : pairs)
-                     benchmark::DoNotOptimize(fast(p));
+                   fast();
                }) /
                static_cast<double>(rounds);
       },
@@ -83,19 +89,32 @@ void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast
 
 void single_layer(benchmark::State& state, Layout layout, double tolerance) {
   const PairIntegrator integrator(tolerance);
-  const auto fast = [&](const Pair& p) { return integrator.single_layer(p.x, p.y); };
+  const std::vector<Pair> pairs = pairs_of(layout, tolerance);
+  const std::vector<PanelPair> all = side_by_side_of(pairs);
+  std::vector<SingleLayerPair> out(all.size());
+  const auto fast = [&] {
+    integrator.single_layer(all, out.data());
+    benchmark::DoNotOptimize(out.data());
+  };
   const auto slow = [&](const Pair& p) { return oracle::single_layer(p.x, p.y, tolerance); };
-  compare_pairs(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
-    return oracle::relative_error(oracle::family(fast(p)), oracle::single_layer(p.x, p.y, 1e-10));
+  compare_pairs(state, pairs, fast, slow, [&](const Pair& p) {
+    return oracle::relative_error(oracle::family(integrator.single_layer(p.x, p.y)),
+                                  oracle::single_layer(p.x, p.y, 1e-10));
   });
 }
 
 void double_layer(benchmark::State& state, Layout layout, double tolerance) {
   const PairIntegrator integrator(tolerance);
-  const auto fast = [&](const Pair& p) { return integrator.double_layer(p.x, p.y); };
+  const std::vector<Pair> pairs = pairs_of(layout, tolerance);
+  const std::vector<PanelPair> all = side_by_side_of(pairs);
+  std::vector<DoubleLayerPair> out(all.size());
+  const auto fast = [&] {
+    integrator.double_layer(all, out.data());
+    benchmark::DoNotOptimize(out.data());
+  };
   const auto slow = [&](const Pair& p) { return oracle::double_layer(p.x, p.y, tolerance); };
-  compare_pairs(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
-    return oracle::double_layer_error(p.x, p.y, oracle::vector(fast(p)),
+  compare_pairs(state, pairs, fast, slow, [&](const Pair& p) {
+    return oracle::double_layer_error(p.x, p.y, oracle::vector(integrator.double_layer(p.x, p.y)),
                                       oracle::double_layer(p.x, p.y, 1e-10));
   });
 }

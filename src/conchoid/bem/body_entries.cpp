@@ -118,30 +118,50 @@ void BodyEntries::keep_pairs() {
   const std::size_t n = body_.panels.size();
   pairs_.resize(n * (n + 1) / 2);
   parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t x = begin; x < end; ++x)
+    std::vector<PanelPair> row;
+    for (std::size_t x = begin; x < end; ++x) {
+      row.clear();
       for (std::size_t y = 0; y <= x; ++y)
-        pairs_[x * (x + 1) / 2 + y] = body_.integrator.single_layer(body_.panels[x], body_.panels[y]);
+        row.push_back(panels(x, y));
+      body_.integrator.single_layer(row, &pairs_[x * (x + 1) / 2]);
+    }
   });
 }
 
-SingleLayerPair BodyEntries::pair(std::size_t x, std::size_t y) const {
-  if (x < y) std::swap(x, y);
-  return pairs_.empty() ? body_.integrator.single_layer(body_.panels[x], body_.panels[y])
-                        : pairs_[x * (x + 1) / 2 + y];
+PanelPair BodyEntries::panels(std::size_t x, std::size_t y) const {
+  return {&body_.panels[x], &body_.panels[y]};
 }
 
-void BodyEntries::fetch(std::size_t x, std::size_t y) const {
-  if (pairs_.empty()) return;
-  if (x < y) std::swap(x, y);
-  __builtin_prefetch(&pairs_[x * (x + 1) / 2 + y]);
+std::vector<SingleLayerPair> BodyEntries::row(std::size_t x, std::span<const std::size_t> others) const {
+  std::vector<SingleLayerPair> out(others.size());
+  if (pairs_.empty()) {
+    std::vector<PanelPair> wanted;
+    for (const std::size_t y : others)
+      wanted.push_back(panels(x, y));
+    body_.integrator.single_layer(wanted, out.data());
+    return out;
+  }
+  const auto place = [&](std::size_t y) {
+    return &pairs_[x < y ? y * (y + 1) / 2 + x : x * (x + 1) / 2 + y];
+  };
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (i + kPairsAhead < others.size()) __builtin_prefetch(place(others[i + kPairsAhead]));
+    out[i] = *place(others[i]);
+  }
+  return out;
 }
 
 void BodyEntries::single_layer(std::span<const TriId> rows, std::span<const TriId> columns,
                                BlockView out) const {
   clear(out, rows.size(), columns.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      add(out, i, j, PairBlocks(pair(rows[i].index(), columns[j].index()), body_.m).single_layer());
+  std::vector<std::size_t> trial;
+  for (const TriId t : columns)
+    trial.push_back(t.index());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::vector<SingleLayerPair> pairs = row(rows[i].index(), trial);
+    for (std::size_t j = 0; j < trial.size(); ++j)
+      add(out, i, j, PairBlocks(pairs[j], body_.m).single_layer());
+  }
 }
 
 void BodyEntries::double_layer(std::span<const TriId> rows, std::span<const NodeId> columns,
@@ -151,14 +171,18 @@ void BodyEntries::double_layer(std::span<const TriId> rows, std::span<const Node
   const auto column = columns_of_corners(body_, trial, columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t x = rows[i].index();
+    const std::vector<SingleLayerPair> pairs = row(x, trial);
+    std::vector<PanelPair> wanted;
+    for (const std::size_t y : trial)
+      wanted.push_back(panels(x, y));
+    std::vector<DoubleLayerPair> laplace(trial.size());
+    body_.integrator.double_layer(wanted, laplace.data());
     for (std::size_t t = 0; t < trial.size(); ++t) {
-      const std::size_t y = trial[t];
-      const PairBlocks blocks(pair(x, y), body_.m);
-      const DoubleLayerPair laplace = body_.integrator.double_layer(body_.panels[x], body_.panels[y]);
+      const PairBlocks blocks(pairs[t], body_.m);
       for (int k = 0; k < 3; ++k)
         if (column[t][k] >= 0)
           add(out, i, static_cast<std::size_t>(column[t][k]),
-              blocks.double_layer(body_.curls[y][k], laplace[k]));
+              blocks.double_layer(body_.curls[trial[t]][k], laplace[t][k]));
     }
   }
 }
@@ -168,20 +192,20 @@ void BodyEntries::hypersingular(std::span<const NodeId> rows, std::span<const No
   clear(out, rows.size(), columns.size());
   const std::vector<std::size_t> test = triangles_around(body_, rows),
                                  trial = triangles_around(body_, columns);
-  const auto row = columns_of_corners(body_, test, rows), column = columns_of_corners(body_, trial, columns);
+  const auto line = columns_of_corners(body_, test, rows), column = columns_of_corners(body_, trial, columns);
   std::vector<PairBlocks::TrialSum> sums(columns.size());  // per column, as one test triangle sees it
   for (std::size_t s = 0; s < test.size(); ++s) {
     std::fill(sums.begin(), sums.end(), PairBlocks::TrialSum());
+    const std::vector<SingleLayerPair> pairs = row(test[s], trial);
     for (std::size_t t = 0; t < trial.size(); ++t) {
-      if (t + kPairsAhead < trial.size()) fetch(test[s], trial[t + kPairsAhead]);
-      const PairBlocks blocks(pair(test[s], trial[t]), body_.m);
+      const PairBlocks blocks(pairs[t], body_.m);
       for (int b = 0; b < 3; ++b)
         if (column[t][b] >= 0)
           sums[static_cast<std::size_t>(column[t][b])].add(blocks, body_.curls[trial[t]][b]);
     }
     for (int a = 0; a < 3; ++a)
-      for (std::size_t j = 0; row[s][a] >= 0 && j < sums.size(); ++j)
-        add(out, static_cast<std::size_t>(row[s][a]), j, sums[j].tested(body_.curls[test[s]][a]));
+      for (std::size_t j = 0; line[s][a] >= 0 && j < sums.size(); ++j)
+        add(out, static_cast<std::size_t>(line[s][a]), j, sums[j].tested(body_.curls[test[s]][a]));
   }
 }
 

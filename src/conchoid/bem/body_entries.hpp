@@ -82,8 +82,9 @@ class BodyEntries {
   void drop_pairs() { pairs_.clear(); }
 
  private:
-  SingleLayerPair pair(std::size_t x, std::size_t y) const;
-  void fetch(std::size_t x, std::size_t y) const;  // a kept pair, into the cache
+  PanelPair panels(std::size_t x, std::size_t y) const;
+  /// The single layer of x with each of the others.
+  std::vector<SingleLayerPair> row(std::size_t x, std::span<const std::size_t> others) const;
 
   const BodyDiscretisation& body_;
   std::vector<SingleLayerPair> pairs_;  // (x, y), x ≥ y, at x (x+1)/2 + y

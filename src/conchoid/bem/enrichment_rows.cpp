@@ -33,8 +33,11 @@ struct TractionPair {
   DoubleLayerPair double_layer;
 };
 
-// All trial functions as one panel sees them, whatever it is tested with.
+// All trial functions as one panel sees them, whatever it is tested with, and what they are summed up from: integrals with
+// all panels, and with those of the surface.
 struct PanelSums {
+  std::vector<SingleLayerPair> single_layer;
+  std::vector<DoubleLayerPair> double_layer;
   std::vector<PairBlocks::TrialSum> enriched;  // per function of the space
   std::vector<PairBlocks::TrialSum> body;      // per node of the body
   std::vector<TractionPair> tractions;
@@ -82,10 +85,12 @@ class RowAssembler {
     }
     const std::size_t n = test_panels_.size();
     table_.resize(n * (n + 1) / 2);
-    parallel_for(n, 1, [&](std::size_t begin, std::size_t end) {
+    parallel_for(n, kTogether, [&](std::size_t begin, std::size_t end) {
+      Wanted<SingleLayerPair> wanted;
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t j = 0; j <= i; ++j)
-          table_[i * (i + 1) / 2 + j] = single_layer(test_panels_[i], test_panels_[j]);
+          single_layer(test_panels_[i], test_panels_[j], table_[i * (i + 1) / 2 + j], wanted);
+      integrate(wanted);
     });
   }
 
@@ -95,9 +100,10 @@ class RowAssembler {
     std::vector<PanelSums> sums(batch);
     for (std::size_t start = 0; start < test_panels_.size(); start += batch) {
       const std::size_t count = std::min(batch, test_panels_.size() - start);
-      parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+      parallel_for(count, kTogether, [&](std::size_t begin, std::size_t end) {
+        integrate(std::span(test_panels_).subspan(start + begin, end - begin), &sums[begin]);
         for (std::size_t i = begin; i < end; ++i)
-          sum_up(test_panels_[start + i], sums[i]);
+          sum_up(sums[i]);
       });
       std::vector<std::vector<TestedPanel>> tested(wanted_.size());
       for (std::size_t i = 0; i < count; ++i)
@@ -116,6 +122,8 @@ class RowAssembler {
   }
 
  private:
+  static constexpr std::size_t kTogether = 4;  // panels whose integrals are made side by side
+
   struct TestedPanel {
     const PanelSums* sums;
     const LocalFunction* function;
@@ -166,35 +174,73 @@ class RowAssembler {
                                     : trial_[x].size() < 3;
   }
 
-  void sum_up(std::size_t x, PanelSums& out) {
-    if (memory_ && at_front(x)) made_[x] = PairMemory::row_of(space_.panels.size());
+  void sum_up(PanelSums& out) const {
     out.enriched.assign(part_ == Part::all ? space_.functions.size() : 0, {});
     out.body.assign(body_.surface.node_count(), {});
     out.tractions.clear();
     Pieces pieces;
     for (std::size_t y = 0; y < space_.panels.size(); ++y) {
-      const bool on_surface = y < space_.surface_count;
-      const bool wanted = part_ == Part::sources ? on_surface && has_source(space_.parent[y])
-                                                 : on_surface || !trial_[y].empty();
-      if (!wanted) continue;
-      const SingleLayerPair integrals = pair(x, y);
-      if (PairMemory::Row* row = kept_row(x)) {
-        row->single_layer[y] = integrals;
-        row->has_single[y] = 1;
-      }
+      if (!is_wanted(y)) continue;
+      const SingleLayerPair& integrals = out.single_layer[y];
       if (part_ == Part::all && !trial_[y].empty()) {
         const PairBlocks blocks(integrals, body_.m);
         for (const LocalFunction& g : trial_[y])
           out.enriched[g.index].add(blocks, g.curl);
       }
-      if (!on_surface) continue;
+      if (y >= space_.surface_count) continue;
       if (space_.parent[y] != pieces.parent) {
         add_body(pieces, out);
         pieces = {space_.parent[y], {}, {}};
       }
-      add_piece(x, y, integrals, pieces);
+      pieces.add(integrals);
+      if (needs_double_layer(y)) pieces.add(out.double_layer[y]);
     }
     add_body(pieces, out);
+  }
+
+  bool is_wanted(std::size_t y) const {
+    const bool on_surface = y < space_.surface_count;
+    return part_ == Part::sources ? on_surface && has_source(space_.parent[y])
+                                  : on_surface || !trial_[y].empty();
+  }
+  bool needs_double_layer(std::size_t y) const {
+    return y < space_.surface_count && !traction_columns(space_.parent[y]).none();
+  }
+
+  // Integrals of some panels with all that are wanted; those that are not known side by side.
+  void integrate(std::span<const std::size_t> panels, PanelSums* out) {
+    Wanted<SingleLayerPair> singles;
+    Wanted<DoubleLayerPair> doubles;
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      const std::size_t x = panels[i];
+      out[i].single_layer.resize(space_.panels.size());
+      out[i].double_layer.resize(space_.surface_count);
+      for (std::size_t y = 0; y < space_.panels.size(); ++y) {
+        if (!is_wanted(y)) continue;
+        if (const SingleLayerPair* known = table_entry(x, y))
+          out[i].single_layer[y] = *known;
+        else
+          single_layer(x, y, out[i].single_layer[y], singles);
+        if (needs_double_layer(y)) double_layer(x, y, out[i].double_layer[y], doubles);
+      }
+    }
+    integrate(singles);
+    integrate(doubles);
+    for (std::size_t i = 0; memory_ && i < panels.size(); ++i)
+      if (at_front(panels[i])) made_[panels[i]] = remembered(out[i]);
+  }
+
+  PairMemory::Row remembered(const PanelSums& sums) const {
+    PairMemory::Row row = PairMemory::row_of(space_.panels.size());
+    for (std::size_t y = 0; y < space_.panels.size(); ++y) {
+      if (!is_wanted(y)) continue;
+      row.single_layer[y] = sums.single_layer[y];
+      row.has_single[y] = 1;
+      if (!needs_double_layer(y)) continue;
+      row.double_layer[y] = sums.double_layer[y];
+      row.has_double[y] = 1;
+    }
+    return row;
   }
 
   // Integrals of a panel with the pieces of one triangle of the body, on which its functions are the same.
@@ -202,21 +248,17 @@ class RowAssembler {
     TriId parent;
     SingleLayerPair single_layer{};
     DoubleLayerPair double_layer{};
-  };
 
-  void add_piece(std::size_t x, std::size_t y, const SingleLayerPair& integrals, Pieces& pieces) {
-    pieces.single_layer.laplace += integrals.laplace;
-    for (std::size_t k = 0; k < integrals.tensor.size(); ++k)
-      pieces.single_layer.tensor[k] += integrals.tensor[k];
-    if (traction_columns(pieces.parent).none()) return;
-    const DoubleLayerPair dl = double_layer(x, y);
-    if (PairMemory::Row* row = kept_row(x)) {
-      row->double_layer[y] = dl;
-      row->has_double[y] = 1;
+    void add(const SingleLayerPair& s) {
+      single_layer.laplace += s.laplace;
+      for (std::size_t k = 0; k < s.tensor.size(); ++k)
+        single_layer.tensor[k] += s.tensor[k];
     }
-    for (std::size_t k = 0; k < dl.size(); ++k)
-      pieces.double_layer[k] += dl[k];
-  }
+    void add(const DoubleLayerPair& d) {
+      for (std::size_t k = 0; k < d.size(); ++k)
+        double_layer[k] += d[k];
+    }
+  };
 
   bool has_source(TriId parent) const {
     const auto& nodes = body_.surface.corners[parent];
@@ -224,29 +266,55 @@ class RowAssembler {
            std::any_of(nodes.begin(), nodes.end(), [&](NodeId i) { return source_of_node_[i.index()] >= 0; });
   }
 
-  PairMemory::Row* kept_row(std::size_t x) { return made_.empty() || made_[x].empty() ? nullptr : &made_[x]; }
-
-  SingleLayerPair single_layer(std::size_t x, std::size_t y) const {
-    if (memory_) {
-      if (const SingleLayerPair* known = memory_->single_layer(x, y)) return *known;
-      if (const SingleLayerPair* known = memory_->single_layer(y, x)) return *known;
+  // What is to be integrated, and where it goes.
+  template <class Integrals>
+  struct Wanted {
+    std::vector<PanelPair> pairs;
+    std::vector<Integrals*> to;
+    std::vector<Integrals> made;
+    void add(const Panel& x, const Panel& y, Integrals& place) {
+      pairs.push_back({&x, &y});
+      to.push_back(&place);
     }
-    return integrator_.single_layer(space_.panels[x], space_.panels[y]);
+  };
+
+  void compute(Wanted<SingleLayerPair>& w) const { integrator_.single_layer(w.pairs, w.made.data()); }
+  void compute(Wanted<DoubleLayerPair>& w) const { integrator_.double_layer(w.pairs, w.made.data()); }
+
+  template <class Integrals>
+  void integrate(Wanted<Integrals>& w) const {
+    w.made.resize(w.pairs.size());
+    compute(w);
+    for (std::size_t i = 0; i < w.to.size(); ++i)
+      *w.to[i] = w.made[i];
+    w.pairs.clear();
+    w.to.clear();
+  }
+
+  void single_layer(std::size_t x, std::size_t y, SingleLayerPair& to,
+                    Wanted<SingleLayerPair>& wanted) const {
+    const SingleLayerPair* known = memory_ ? memory_->single_layer(x, y) : nullptr;
+    if (memory_ && !known) known = memory_->single_layer(y, x);
+    if (known)
+      to = *known;
+    else
+      wanted.add(space_.panels[x], space_.panels[y], to);
   }
 
   // Tested on x, with the functions of surface piece y.
-  DoubleLayerPair double_layer(std::size_t x, std::size_t y) const {
-    if (memory_)
-      if (const DoubleLayerPair* known = memory_->double_layer(x, y)) return *known;
-    return integrator_.double_layer(space_.panels[y], space_.panels[x]);
+  void double_layer(std::size_t x, std::size_t y, DoubleLayerPair& to,
+                    Wanted<DoubleLayerPair>& wanted) const {
+    if (const DoubleLayerPair* known = memory_ ? memory_->double_layer(x, y) : nullptr)
+      to = *known;
+    else
+      wanted.add(space_.panels[y], space_.panels[x], to);
   }
 
-  SingleLayerPair pair(std::size_t x, std::size_t y) const {
-    if (test_[y].empty()) return single_layer(x, y);
-    if (x < y) std::swap(x, y);
-    if (table_.empty()) return single_layer(x, y);
-    const long i = test_index_[x], j = test_index_[y];
-    return table_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+  // A pair of panels that are both tested on: integrated once, before all rows.
+  const SingleLayerPair* table_entry(std::size_t x, std::size_t y) const {
+    if (table_.empty() || test_[y].empty()) return nullptr;
+    const auto [j, i] = std::minmax(test_index_[x], test_index_[y]);
+    return &table_[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
   }
 
   // Where a column of the body's functions goes: to an unknown, a source, both (where some components are

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "conchoid/quadrature/far_rules.hpp"
@@ -82,7 +83,8 @@ struct FarDegrees {
 };
 /// @param limits  of half the tolerance
 FarDegrees far_degrees(const FarLimits& limits, Layer layer, const Panel& x, const Panel& y);
-Family far_single_layer(const Panel& x, const Panel& y, FarDegrees degrees);
-Vec3 far_double_layer(const Panel& x, const Panel& y, FarDegrees degrees);
+/// Pairs that take the same rules, up to `lanes` (lanes.hpp) of them side by side: the bits of one do not depend on the others.
+void far_single_layer(std::span<const PanelPair> pairs, FarDegrees degrees, Family* out);
+void far_double_layer(std::span<const PanelPair> pairs, FarDegrees degrees, Vec3* out);
 
 }  // namespace conchoid

@@ -18,12 +18,14 @@ struct DegreeBound {
   int degree;
   double single, dbl;
 };
-constexpr std::array<DegreeBound, 7> bounds = {{{2, 0.033, 0.18},
+constexpr std::array<DegreeBound, 9> bounds = {{{2, 0.033, 0.18},
                                                 {4, 0.0096, 0.075},
                                                 {5, 0.0125, 0.16},
                                                 {6, 0.0015, 0.007},
                                                 {8, 0.0018, 0.0035},
+                                                {9, 4.8e-4, 2.6e-3},
                                                 {10, 7e-5, 3.5e-4},
+                                                {11, 6e-5, 2.5e-4},
                                                 {12, 1.6e-5, 7e-5}}};
 
 double factor(const DegreeBound& bound, Layer layer) {
@@ -32,8 +34,8 @@ double factor(const DegreeBound& bound, Layer layer) {
 
 /// rᵈ⁺¹ for the degrees d of the rules.
 std::array<double, bounds.size()> powers(double r) {
-  const double r2 = r * r, r3 = r2 * r, r5 = r3 * r2, r6 = r3 * r3;
-  return {r3, r5, r6, r5 * r2, r6 * r3, r6 * r5, r6 * r5 * r2};
+  const double r2 = r * r, r3 = r2 * r, r5 = r3 * r2, r6 = r3 * r3, r11 = r6 * r5;
+  return {r3, r5, r6, r5 * r2, r6 * r3, r5 * r5, r11, r6 * r6, r11 * r2};
 }
 
 /// The largest number of 0 … 1 for which a property holds that all smaller ones have, 0 among them.

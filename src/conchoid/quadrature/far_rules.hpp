@@ -19,7 +19,7 @@ class FarLimits {
   int degree(Layer layer, double radius, double distance) const;
 
  private:
-  static constexpr std::size_t kRules = 7;
+  static constexpr std::size_t kRules = 9;
   std::array<std::array<double, kRules>, 2> largest_;  ///< radius/distance for each rule, of either layer
 };
 

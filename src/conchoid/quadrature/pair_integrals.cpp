@@ -1,12 +1,16 @@
 #include "conchoid/quadrature/pair_integrals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/quadrature/cases.hpp"
+#include "conchoid/quadrature/far_points.hpp"
 #include "conchoid/quadrature/triangle_rules.hpp"
 
 namespace conchoid {
@@ -44,7 +48,8 @@ DoubleLayerPair to_pair(const Vec3& v) {
   return {v[0], v[1], v[2]};
 }
 
-Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance, const FarLimits& limits) {
+/// Pairs that are not far.
+Family other_single_layer(const Panel& x, const Panel& y, double tolerance) {
   switch (shared_corners(x, y).count) {
     case 3:
       return coincident_single_layer(x);
@@ -53,14 +58,54 @@ Family ordered_single_layer(const Panel& x, const Panel& y, double tolerance, co
     case 1:
       return common_vertex_single_layer(touching_pair(x, y), tolerance);
     default:
-      break;
+      return near_single_layer(x, y, tolerance);
   }
-  const FarDegrees degrees = far_degrees(limits, Layer::single, x, y);
-  // From there on a rule on one panel with the closed form of the other is cheaper than rules on both.
-  constexpr int costly = 10;
-  const bool far = degrees.enough() && (degrees.x < costly || degrees.y < costly);
-  return far ? far_single_layer(x, y, degrees) : near_single_layer(x, y, tolerance);
 }
+
+/// From there on a rule on one panel with the closed form of the other is cheaper than rules on both.
+constexpr int costly_degree = 11;
+
+bool single_layer_is_far(FarDegrees degrees) {
+  return degrees.enough() && (degrees.x < costly_degree || degrees.y < costly_degree);
+}
+
+/// Far pairs on their way, by their rules: as many as there are lanes are computed together.
+template <class Result, class Compute, class Put>
+class FarGroups {
+ public:
+  FarGroups(const Compute& compute, const Put& put) : compute_(compute), put_(put) {}
+
+  void add(const PanelPair& pair, FarDegrees degrees, std::size_t at) {
+    const std::size_t group = static_cast<std::size_t>(degrees.x * kDegrees + degrees.y), i = count_[group]++;
+    pairs_[group][i] = pair;
+    at_[group][i] = at;
+    if (i + 1 == lanes) finish(degrees);
+  }
+  void finish() {
+    for (int x = 0; x < kDegrees; ++x)
+      for (int y = 0; y < kDegrees; ++y)
+        if (count_[static_cast<std::size_t>(x * kDegrees + y)] > 0) finish({x, y});
+  }
+
+ private:
+  static constexpr int kDegrees = max_degree + 1;
+  static constexpr std::size_t kGroups = static_cast<std::size_t>(kDegrees) * kDegrees;
+
+  void finish(FarDegrees degrees) {
+    const auto group = static_cast<std::size_t>(degrees.x * kDegrees + degrees.y);
+    std::array<Result, lanes> results;
+    compute_(std::span<const PanelPair>(pairs_[group].data(), count_[group]), degrees, results.data());
+    for (std::size_t i = 0; i < count_[group]; ++i)
+      put_(at_[group][i], results[i]);
+    count_[group] = 0;
+  }
+
+  const Compute& compute_;
+  const Put& put_;
+  std::array<unsigned char, kGroups> count_{};
+  std::array<std::array<PanelPair, lanes>, kGroups> pairs_;  // as many as are counted
+  std::array<std::array<std::size_t, lanes>, kGroups> at_;
+};
 
 /// X lies in the plane of Y, up to rounding.
 bool in_one_plane(const Panel& x, const Panel& y) {
@@ -166,17 +211,52 @@ PairIntegrator::PairIntegrator(double tolerance) : tolerance_(tolerance), far_(t
 }
 
 SingleLayerPair PairIntegrator::single_layer(const Panel& x, const Panel& y) const {
-  return to_pair(in_order(x, y) ? ordered_single_layer(x, y, tolerance_, far_)
-                                : ordered_single_layer(y, x, tolerance_, far_));
+  const PanelPair pair{&x, &y};
+  SingleLayerPair out;
+  single_layer({&pair, 1}, &out);
+  return out;
 }
 
 DoubleLayerPair PairIntegrator::double_layer(const Panel& x, const Panel& y) const {
-  const int shared = shared_corners(x, y).count;
-  if (shared == 3) return {};
-  if (shared > 0) return to_pair(touching_double_layer(touching_pair(x, y), shared, tolerance_));
-  if (in_one_plane(x, y)) return {};
-  const FarDegrees degrees = far_degrees(far_, Layer::dbl, x, y);
-  return to_pair(degrees.enough() ? far_double_layer(x, y, degrees) : near_double_layer(x, y, tolerance_));
+  const PanelPair pair{&x, &y};
+  DoubleLayerPair out;
+  double_layer({&pair, 1}, &out);
+  return out;
+}
+
+// Spheres around far panels do not meet, so that they share no corner.
+void PairIntegrator::single_layer(std::span<const PanelPair> pairs, SingleLayerPair* out) const {
+  const auto put = [&](std::size_t i, const Family& f) { out[i] = to_pair(f); };
+  FarGroups<Family, decltype(far_single_layer), decltype(put)> groups(far_single_layer, put);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    PanelPair pair = pairs[i];
+    if (!in_order(*pair.x, *pair.y)) std::swap(pair.x, pair.y);
+    const FarDegrees degrees = far_degrees(far_, Layer::single, *pair.x, *pair.y);
+    if (single_layer_is_far(degrees))
+      groups.add(pair, degrees, i);
+    else
+      put(i, other_single_layer(*pair.x, *pair.y, tolerance_));
+  }
+  groups.finish();
+}
+
+void PairIntegrator::double_layer(std::span<const PanelPair> pairs, DoubleLayerPair* out) const {
+  const auto put = [&](std::size_t i, const Vec3& v) { out[i] = to_pair(v); };
+  FarGroups<Vec3, decltype(far_double_layer), decltype(put)> groups(far_double_layer, put);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Panel &x = *pairs[i].x, &y = *pairs[i].y;
+    const FarDegrees degrees = far_degrees(far_, Layer::dbl, x, y);
+    const int shared = degrees.enough() ? 0 : shared_corners(x, y).count;
+    if (shared == 3 || (shared == 0 && in_one_plane(x, y)))
+      put(i, Vec3::Zero());
+    else if (shared > 0)
+      put(i, touching_double_layer(touching_pair(x, y), shared, tolerance_));
+    else if (degrees.enough())
+      groups.add(pairs[i], degrees, i);
+    else
+      put(i, near_double_layer(x, y, tolerance_));
+  }
+  groups.finish();
 }
 
 bool same_integrals(const Panel& known_x, const Panel& known_y, const Panel& x, const Panel& y) {

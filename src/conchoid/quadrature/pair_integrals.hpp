@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "conchoid/core/ids.hpp"
 #include "conchoid/core/vec.hpp"
@@ -18,6 +19,11 @@ struct Panel {
   double radius;  ///< of the sphere around `center` that holds the panel
 };
 Panel make_panel(const Triangle& x, const std::array<NodeId, 3>& vertex);
+
+/// Two panels whose integrals are asked for.
+struct PanelPair {
+  const Panel *x, *y;
+};
 
 /// The seven numbers of a panel pair to which V and D reduce, R = |x−y|:
 /// laplace = ∫_X∫_Y 1/R,  tensor = ∫_X∫_Y (x−y)_i (x−y)_j / R³ as xx yy zz yz xz xy.   docs/theory.md (Q1)
@@ -40,6 +46,11 @@ class PairIntegrator {
 
   SingleLayerPair single_layer(const Panel& x, const Panel& y) const;
   DoubleLayerPair double_layer(const Panel& x, const Panel& y) const;
+
+  /// The same of many pairs, to the last bit: far ones with the same rules are computed side by side, up to four times as fast.
+  /// @pre one place in `out` for each
+  void single_layer(std::span<const PanelPair> pairs, SingleLayerPair* out) const;
+  void double_layer(std::span<const PanelPair> pairs, DoubleLayerPair* out) const;
 
  private:
   double tolerance_;

@@ -18,7 +18,7 @@ struct TriangleRule {
   std::span<const RulePoint> points;
 };
 
-/// All rules by ascending degree: 2 4 5 6 8 10 12 with 3 6 7 12 16 25 33 points.
+/// All rules by ascending degree: 2 4 5 6 8 9 10 11 12 with 3 6 7 12 16 19 25 28 33 points.
 std::span<const TriangleRule> triangle_rules();
 /// The rule of that degree. @pre it exists.
 const TriangleRule& triangle_rule(int degree);
