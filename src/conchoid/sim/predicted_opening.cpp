@@ -21,6 +21,10 @@ double diagonal_of(const PreparedBody& body) {
 
 }  // namespace
 
+bool may_predict(double expected, double tolerance, bool solving) {
+  return expected <= (solving ? kShareToStopSolving * tolerance : tolerance);
+}
+
 PredictedOpening::PredictedOpening(const PredictionContext& c, const ExpectedError::Statement& statement)
     : bem_(c.bem),
       surface_(c.body.surface),
@@ -65,8 +69,8 @@ bool PredictedOpening::any_moves(const CrackState& crack, const std::vector<Fron
 
 bool PredictedOpening::is_good(const CrackState& crack, const std::vector<FrontOpening>& predicted) const {
   if (!looks()) return true;
-  return error_.at_the_end(crack, predicted, frames_ahead(crack, surface_, crack_edge_)) <= *tolerance_ &&
-         any_moves(crack, predicted);
+  const double expected = error_.at_the_end(crack, predicted, frames_ahead(crack, surface_, crack_edge_));
+  return may_predict(expected, *tolerance_, solved_) && any_moves(crack, predicted);
 }
 
 std::vector<FrontOpening> PredictedOpening::open(const CrackState& crack) {

@@ -22,13 +22,19 @@ struct PredictionContext {
   std::optional<double> tolerance = {};
 };
 
+/// Whether a frame may be predicted, where `expected` is the error of the whole surface in the end if it is and all after it
+/// are, and X the one that is allowed: X is, but a run that is solving begins to predict only within kShareToStopSolving of it.
+/// A frame solved behind predicted ones needs the rows of these, too: what was saved is paid after all.
+bool may_predict(double expected, double tolerance, bool solving);
+inline constexpr double kShareToStopSolving = 0.5;
+
 /// Frame 1 by boundary elements, and every Nth after it where that is asked for; the others are predicted. A
 /// later frame that cannot be solved (SingularSystem) is predicted, too.
 ///
 /// With a tolerance X (methods "hybrid") a prediction is looked at first: the frame is solved if the whole surface
 /// would be expected farther than X from the solved one in the end (ExpectedError) were all frames predicted from here on
-/// until the fronts are through, if no point of the front would move, or if X = 0. So early frames are solved, whose
-/// rows are few and whose errors all that follows would inherit, and the last ones predicted. X = 0 is the solution
+/// until the fronts are through (may_predict), if no point of the front would move, or if X = 0. So early frames are solved,
+/// whose rows are few and whose errors all that follows would inherit, and the last ones predicted. X = 0 is the solution
 /// bit for bit, frames that cannot be solved among it: they are carried, not predicted. X = ∞ is the prediction.
 class PredictedOpening : public OpeningSource {
  public:
