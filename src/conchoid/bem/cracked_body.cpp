@@ -219,12 +219,9 @@ std::vector<Mat3> CrackedBody::stress_inside(std::span<const Vec3> points) const
   if (!s.body->settings().quadratic)
     return conchoid::interior_stress(points, loaded_panels(), s.body->material());
   const std::vector<QuadraticLoadedPanel> panels = quadratic_panels();
-  std::vector<Mat3> stress(points.size());
-  parallel_for(points.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      stress[i] = conchoid::interior_stress(points[i], panels, s.body->material());
+  return parallel_values(points.size(), 1, [&](std::size_t i) {
+    return conchoid::interior_stress(points[i], panels, s.body->material());
   });
-  return stress;
 }
 
 std::vector<Mat3> CrackedBody::surface_stress() const {

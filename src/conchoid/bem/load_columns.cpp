@@ -48,11 +48,7 @@ std::vector<const double*> LoadColumns::columns(std::span<const LoadSource> sour
     for (const LoadSource& s : sources)
       if (!kept_.contains(s)) missing.push_back(s);
   }
-  std::vector<std::vector<double>> made(missing.size());
-  parallel_for(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      made[i] = integrate(missing[i]);
-  });
+  auto made = parallel_values(missing.size(), 1, [&](std::size_t i) { return integrate(missing[i]); });
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < missing.size(); ++i)
     kept_.try_emplace(missing[i], std::move(made[i]));

@@ -41,17 +41,7 @@ struct Segment {
                              ///< through itself), to
 };
 
-/// What `of` says for 0 … n−1, side by side.
-template <class Of>
-auto for_each_of(std::size_t n, const Of& of) {
-  constexpr std::size_t of_task = 256;
-  std::vector<decltype(of(n))> all(n);
-  parallel_for(n, of_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      all[i] = of(i);
-  });
-  return all;
-}
+constexpr std::size_t kOfTask = 256;  // elements looked at by one task
 
 class Corefinement {
  public:
@@ -127,8 +117,8 @@ class Corefinement {
 
   void find_segments() {
     const auto near = overlapping_boxes(surface_, sheet_);
-    const auto found =
-        for_each_of(near.size(), [&](std::size_t i) { return intersect(near[i].first, near[i].second); });
+    const auto found = parallel_values(
+        near.size(), kOfTask, [&](std::size_t i) { return intersect(near[i].first, near[i].second); });
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (found[i].broken)
         throw ComputationError(
@@ -192,7 +182,7 @@ class Corefinement {
       return std::pair<const PerturbedPoint&, const PerturbedPoint&>(points[key.edge.a.index()],
                                                                      points[key.edge.b.index()]);
     };
-    crossings_ = for_each_of(keys_.size(), [&](std::size_t k) {
+    crossings_ = parallel_values(keys_.size(), kOfTask, [&](std::size_t k) {
       const auto [p, q] = ends(keys_[k]);
       return crossing(p, q, edge_triangle(keys_[k]));
     });
@@ -313,7 +303,7 @@ class Corefinement {
     lists.resize((kind == Key::surface_edge ? surface_ : sheet_).triangle_count());
     for (std::size_t i = 0; i < segments_.size(); ++i)
       lists[kind == Key::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
-    const auto crossings = for_each_of(lists.size(), [&](std::size_t t) {
+    const auto crossings = parallel_values(lists.size(), kOfTask, [&](std::size_t t) {
       return lists[TriId(t)].size() < 2 ? std::vector<CrossingSegments>()
                                         : crossing_segments(positions_, triangle_cut(kind, TriId(t)));
     });
@@ -375,7 +365,7 @@ class Corefinement {
   /// Of all triangles of a kind, what cut_triangle says; nothing of those that are whole.
   std::vector<std::vector<Corners>> cut_triangles(Key::Kind kind) const {
     const auto& lists = kind == Key::surface_edge ? on_surface_ : on_sheet_;
-    return for_each_of(lists.size(), [&](std::size_t t) {
+    return parallel_values(lists.size(), kOfTask, [&](std::size_t t) {
       return lists[TriId(t)].empty() ? std::vector<Corners>() : cut_triangle(kind, TriId(t));
     });
   }

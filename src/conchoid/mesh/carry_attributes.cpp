@@ -21,11 +21,8 @@ SurfaceAttributes attributes_of(const SurfaceAttributes& all, const std::vector<
 SurfaceAttributes carried_over(const AttributedMesh& from, const TriMesh& to) {
   if (from.attributes.empty()) return {};
   const ClosestPointTree tree(from.mesh);
-  std::vector<TriId> source(to.triangle_count());
-  parallel_for(source.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      source[t] = tree.closest(centroid(to, TriId(t))).triangle;
-  });
+  const auto source = parallel_values(
+      to.triangle_count(), 256, [&](std::size_t t) { return tree.closest(centroid(to, TriId(t))).triangle; });
   SurfaceAttributes out = attributes_of(from.attributes, source);
   for (std::size_t t = 0; t < source.size(); ++t) {
     const Triangle there = from.mesh.triangle(source[t]), here = to.triangle(TriId(t));

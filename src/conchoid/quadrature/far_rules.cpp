@@ -1,5 +1,6 @@
 #include "conchoid/quadrature/far_rules.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -64,20 +65,15 @@ int far_degree(Layer layer, double radius, double distance, double tolerance, in
 }
 
 FarLimits::FarLimits(double tolerance) {
-  static_assert(kRules == bounds.size());
+  static_assert(kRules == bounds.size() && kDegrees[kRules] == 0);
+  static_assert(std::equal(bounds.begin(), bounds.end(), kDegrees.begin(),
+                           [](const DegreeBound& b, int degree) { return b.degree == degree; }));
   for (const Layer layer : {Layer::single, Layer::dbl})
-    for (std::size_t i = 0; i < kRules; ++i)
-      largest_[static_cast<std::size_t>(layer)][i] =
-          largest_with([&](double r) { return powers(r)[i] * factor(bounds[i], layer) <= tolerance; });
-}
-
-int FarLimits::degree(Layer layer, double radius, double distance) const {
-  if (!(distance > radius)) return 0;
-  const double r = radius / distance;
-  const auto& largest = largest_[static_cast<std::size_t>(layer)];
-  for (std::size_t i = 0; i < kRules; ++i)
-    if (r <= largest[i]) return bounds[i].degree;
-  return 0;
+    for (std::size_t i = 0; i < kRules; ++i) {
+      double& largest = largest_[static_cast<std::size_t>(layer)][i];
+      largest = largest_with([&](double r) { return powers(r)[i] * factor(bounds[i], layer) <= tolerance; });
+      if (i > 0) largest = std::max(largest, largest_[static_cast<std::size_t>(layer)][i - 1]);
+    }
 }
 
 }  // namespace conchoid

@@ -23,11 +23,6 @@ double largest_coordinate(const Triangle& t) {
   return std::max({t[0].cwiseAbs().maxCoeff(), t[1].cwiseAbs().maxCoeff(), t[2].cwiseAbs().maxCoeff()});
 }
 
-/// Rounding of a panel's normal times its size: large for thin panels.
-double normal_noise(const Panel& panel) {
-  return 2 * epsilon * panel.radius * panel.radius * panel.radius / panel.area;
-}
-
 /// Order of a pair that does not depend on which panel was named first: by ids, where these are equal by
 /// coordinates.
 bool in_order(const Panel& x, const Panel& y) {
@@ -133,8 +128,8 @@ bool is_far(const Vec3& x, const Panel& y) {
 }
 
 PanelPotential potential_of(const Vec3& x, const Panel& y) {
-  const double size = std::max(x.cwiseAbs().maxCoeff(), largest_coordinate(y.x));
-  return PanelPotential(y.x, y.normal, 8 * epsilon * size + normal_noise(y));
+  const double size = std::max(x.cwiseAbs().maxCoeff(), y.reach);
+  return PanelPotential(y.x, y.normal, 8 * epsilon * size + y.noise);
 }
 
 }  // namespace
@@ -150,6 +145,8 @@ Panel make_panel(const Triangle& x, const std::array<NodeId, 3>& vertex) {
   panel.center = (x[0] + x[1] + x[2]) / 3;
   panel.radius =
       std::max({(x[0] - panel.center).norm(), (x[1] - panel.center).norm(), (x[2] - panel.center).norm()});
+  panel.reach = largest_coordinate(x);
+  panel.noise = 2 * epsilon * panel.radius * panel.radius * panel.radius / panel.area;
   return panel;
 }
 
@@ -168,8 +165,7 @@ SharedCorners shared_corners(const Panel& x, const Panel& y) {
 }
 
 double plane_noise(const Panel& x, const Panel& y) {
-  return 8 * epsilon * std::max(largest_coordinate(x.x), largest_coordinate(y.x)) + normal_noise(x) +
-         normal_noise(y);
+  return 8 * epsilon * std::max(x.reach, y.reach) + x.noise + y.noise;
 }
 
 bool coplanar(const Triangle& x, const PanelPotential& y, double noise) {

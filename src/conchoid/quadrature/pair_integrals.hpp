@@ -17,6 +17,8 @@ struct Panel {
   double area;
   Vec3 center;    ///< centroid
   double radius;  ///< of the sphere around `center` that holds the panel
+  double reach;   ///< largest of the corners' coordinates, without sign
+  double noise;   ///< rounding of the normal times the panel's size: large for thin panels [m]
 };
 Panel make_panel(const Triangle& x, const std::array<NodeId, 3>& vertex);
 

@@ -76,15 +76,11 @@ std::vector<Plane> own_planes(const EditableMesh& mesh) {
 
 std::vector<Plane> nearest_planes(const EditableMesh& mesh, const TriMesh& shape) {
   const ClosestPointTree tree(shape);
-  std::vector<Plane> planes(mesh.triangle_slots());
-  parallel_for(planes.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Triangle x = mesh.triangle(TriId(t));
-      const TriId nearest = tree.closest((x[0] + x[1] + x[2]) / 3).triangle;
-      planes[t] = nearest.valid() ? plane_of(shape.triangle(nearest)) : plane_of(x);
-    }
+  return parallel_values(mesh.triangle_slots(), 256, [&](std::size_t t) {
+    const Triangle x = mesh.triangle(TriId(t));
+    const TriId nearest = tree.closest((x[0] + x[1] + x[2]) / 3).triangle;
+    return plane_of(nearest.valid() ? shape.triangle(nearest) : x);
   });
-  return planes;
 }
 
 class Decimation {

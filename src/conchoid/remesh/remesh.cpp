@@ -349,10 +349,8 @@ double one_way_distance(const TriMesh& from, const ClosestPointTree& to) {
     for (std::size_t k = 0; k < 3; ++k)
       samples.push_back(0.5 * (x[k] + x[(k + 1) % 3]));
   }
-  std::vector<double> squared(samples.size());
-  parallel_for(samples.size(), samples_of_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      squared[i] = to.closest(samples[i]).squared_distance;
+  const auto squared = parallel_values(samples.size(), samples_of_task, [&](std::size_t i) {
+    return to.closest(samples[i]).squared_distance;
   });
   return squared.empty() ? 0 : std::sqrt(*std::max_element(squared.begin(), squared.end()));
 }

@@ -205,10 +205,8 @@ class BoundaryBuilder {
     }
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
-    std::vector<double> distances(points.size());
-    parallel_for(points.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        distances[i] = std::sqrt(tree_.closest(lattice_.point(points[i])).squared_distance);
+    const auto distances = parallel_values(points.size(), 256, [&](std::size_t i) {
+      return std::sqrt(tree_.closest(lattice_.point(points[i])).squared_distance);
     });
     const auto distance = [&](std::size_t point) {
       return distances[static_cast<std::size_t>(std::lower_bound(points.begin(), points.end(), point) -

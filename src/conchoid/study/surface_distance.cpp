@@ -50,10 +50,8 @@ std::vector<SurfaceSample> spread_samples(const TriMesh& mesh, std::size_t sampl
 SurfaceDistance one_sided_distance(const TriMesh& from, const TriMesh& to, std::size_t samples) {
   const std::vector<SurfaceSample> points = spread_samples(from, samples);
   const ClosestPointTree tree(to);
-  std::vector<std::pair<double, double>> distance_and_area(points.size());
-  parallel_for(points.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      distance_and_area[i] = {std::sqrt(tree.closest(points[i].point).squared_distance), points[i].area};
+  auto distance_and_area = parallel_values(points.size(), 256, [&](std::size_t i) {
+    return std::pair(std::sqrt(tree.closest(points[i].point).squared_distance), points[i].area);
   });
   std::sort(distance_and_area.begin(), distance_and_area.end());
   double area = 0, sum = 0;

@@ -109,11 +109,8 @@ double common_area(const Triangle& a, const Triangle& b, const Vec3& normal) {
 std::vector<FragmentContact> fragment_contacts(const std::vector<Fragment>& fragments) {
   constexpr std::size_t sources_of_task = 512;
   const IdLists<TriId, Face> faces = faces_of_sheets(fragments);
-  std::vector<std::vector<FragmentContact>> over(faces.size());
-  parallel_for(over.size(), sources_of_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s)
-      over[s] = contacts_over(fragments, faces[TriId(s)]);
-  });
+  const auto over = parallel_values(faces.size(), sources_of_task,
+                                    [&](std::size_t s) { return contacts_over(fragments, faces[TriId(s)]); });
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
   for (const auto& contacts : over)
     for (const FragmentContact& c : contacts)
