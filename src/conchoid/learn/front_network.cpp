@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conchoid/core/random.hpp"
+#include "conchoid/core/wide_clones.hpp"
 
 namespace conchoid {
 namespace {
@@ -44,52 +45,86 @@ Matrix neighbour_mean_back(const Matrix& g, const std::vector<char>& goes_on) {
   return out;
 }
 
-// Mean over every stretch, for each of its columns; a map that is its own transpose. Columns are added one after the other, so
-// that the bits of a stretch do not depend on what is beside it.
-Matrix stretch_mean(const Matrix& h, const std::vector<char>& goes_on) {
-  Matrix mean(h.rows(), h.cols());
-  for (Index begin = 0, i = 0; i < h.cols(); ++i) {
+// Mean over every stretch, a column each. Columns are added one after the other, so that the bits of a stretch do not depend on
+// what is beside it.
+Matrix stretch_means(const Matrix& h, const std::vector<char>& goes_on) {
+  Matrix mean(h.rows(), std::count(goes_on.begin(), goes_on.end(), 0));
+  for (Index begin = 0, i = 0, stretch = 0; i < h.cols(); ++i) {
     if (goes_on[static_cast<std::size_t>(i)]) continue;
     Eigen::VectorXf sum = h.col(begin);
     for (Index k = begin + 1; k <= i; ++k)
       sum += h.col(k);
-    mean.middleCols(begin, i + 1 - begin).colwise() = sum / static_cast<float>(i + 1 - begin);
+    mean.col(stretch++) = sum / static_cast<float>(i + 1 - begin);
     begin = i + 1;
   }
   return mean;
 }
 
-// Rows r … r + Rows of a x, of columns i … i + Columns: numbers that stay in registers while k runs.
-template <int Rows, int Columns>
-void product_block(const Eigen::Map<const Matrix>& a, const Matrix& x, Index r, Index i, Matrix& out) {
-  Eigen::Array<float, Rows, Columns> sum = Eigen::Array<float, Rows, Columns>::Zero();
-  for (Index k = 0; k < a.cols(); ++k) {
-    const Eigen::Array<float, Rows, 1> of_k = a.template block<Rows, 1>(r, k).array();
-    for (int c = 0; c < Columns; ++c)
-      sum.col(c) += x(k, i + c) * of_k;
+// What stretches have, for each of their columns.
+Matrix spread_out(const Matrix& of_stretch, const std::vector<char>& goes_on) {
+  Matrix out(of_stretch.rows(), static_cast<Index>(goes_on.size()));
+  for (Index i = 0, stretch = 0; i < out.cols(); ++i) {
+    out.col(i) = of_stretch.col(stretch);
+    if (!goes_on[static_cast<std::size_t>(i)]) ++stretch;
   }
-  out.template block<Rows, Columns>(r, i) = sum.matrix();
+  return out;
+}
+
+// Mean over the stretch of every column; a map that is its own transpose.
+Matrix stretch_mean(const Matrix& h, const std::vector<char>& goes_on) {
+  return spread_out(stretch_means(h, goes_on), goes_on);
+}
+
+typedef float Floats __attribute__((vector_size(32), may_alias, aligned(alignof(float))));
+constexpr Index kFloats = 8;
+
+// Rows r … r + kFloats·Blocks of a x, of columns i … i + Columns: numbers that stay in registers while k runs.
+template <int Blocks, int Columns>
+CONCHOID_INTO_CLONES void product_block(const float* a, Index rows, Index terms, const float* x, Index r,
+                                        Index i, float* out) {
+  Floats sum[Columns][Blocks] = {};
+  for (Index k = 0; k < terms; ++k)
+    for (int b = 0; b < Blocks; ++b) {
+      const Floats of_k = *reinterpret_cast<const Floats*>(a + k * rows + r + b * kFloats);
+      for (int c = 0; c < Columns; ++c)
+        sum[c][b] += x[(i + c) * terms + k] * of_k;
+    }
+  for (int c = 0; c < Columns; ++c)
+    for (int b = 0; b < Blocks; ++b)
+      *reinterpret_cast<Floats*>(out + (i + c) * rows + r + b * kFloats) = sum[c][b];
 }
 
 template <int Columns>
-void product_columns(const Eigen::Map<const Matrix>& a, const Matrix& x, Index i, Matrix& out) {
-  constexpr int kRows = 8;
+CONCHOID_INTO_CLONES void product_columns(const float* a, Index rows, Index terms, const float* x, Index i,
+                                          float* out) {
   Index r = 0;
-  for (; r + kRows <= a.rows(); r += kRows)
-    product_block<kRows, Columns>(a, x, r, i, out);
-  for (; r < a.rows(); ++r)
-    product_block<1, Columns>(a, x, r, i, out);
+  for (; r + 2 * kFloats <= rows; r += 2 * kFloats)
+    product_block<2, Columns>(a, rows, terms, x, r, i, out);
+  for (; r + kFloats <= rows; r += kFloats)
+    product_block<1, Columns>(a, rows, terms, x, r, i, out);
+  for (; r < rows; ++r)
+    for (int c = 0; c < Columns; ++c) {
+      float sum = 0;
+      for (Index k = 0; k < terms; ++k)
+        sum += x[(i + c) * terms + k] * a[k * rows + r];
+      out[(i + c) * rows + r] = sum;
+    }
+}
+
+CONCHOID_WIDE_CLONES void put_product(const float* a, Index rows, Index terms, const float* x, Index columns,
+                                      float* out) {
+  constexpr int together = 4;
+  Index i = 0;
+  for (; i + together <= columns; i += together)
+    product_columns<together>(a, rows, terms, x, i, out);
+  for (; i < columns; ++i)
+    product_columns<1>(a, rows, terms, x, i, out);
 }
 
 // A x, the terms of each number in their order: the same bits for a column whatever is beside it.
 Matrix product(const Eigen::Map<const Matrix>& a, const Matrix& x) {
-  constexpr int kColumns = 4;
   Matrix out(a.rows(), x.cols());
-  Index i = 0;
-  for (; i + kColumns <= x.cols(); i += kColumns)
-    product_columns<kColumns>(a, x, i, out);
-  for (; i < x.cols(); ++i)
-    product_columns<1>(a, x, i, out);
+  put_product(a.data(), a.rows(), a.cols(), x.data(), x.cols(), out.data());
   return out;
 }
 
@@ -151,7 +186,7 @@ Matrix FrontNetwork::answer(const Matrix& rows, const std::vector<char>& goes_on
     const Layer& layer = layers_[l];
     const Matrix sum = product(weights(layer, layer.own), h) +
                        product(weights(layer, layer.neighbours), neighbour_mean(h, goes_on)) +
-                       product(weights(layer, layer.stretch), stretch_mean(h, goes_on));
+                       spread_out(product(weights(layer, layer.stretch), stretch_means(h, goes_on)), goes_on);
     h += squashed(sum.colwise() + offset(layer));
   }
   return product(weights(last, last.own), h).colwise() + offset(last);
