@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +25,11 @@ std::string only_file(const TemporaryFolder& folder) {
   return found;
 }
 
+std::optional<std::string> recalled(const ByteCache& cache, const std::string& name) {
+  const std::optional<KeptBytes> kept = cache.recall(name);
+  return kept ? std::optional<std::string>(kept->bytes) : std::nullopt;
+}
+
 }  // namespace
 
 TEST(ByteCache, GivesBackWhatWasKept) {
@@ -31,8 +38,8 @@ TEST(ByteCache, GivesBackWhatWasKept) {
   EXPECT_FALSE(cache.recall("a"));
   cache.keep("a", std::string("x\0y", 3));
   cache.keep("empty", "");
-  EXPECT_EQ(cache.recall("a"), std::string("x\0y", 3));
-  EXPECT_EQ(ByteCache(folder / "new" / "deeper").recall("empty"), "");
+  EXPECT_EQ(recalled(cache, "a"), std::string("x\0y", 3));
+  EXPECT_EQ(recalled(ByteCache(folder / "new" / "deeper"), "empty"), "");
 }
 
 TEST(ByteCache, DamagedAndForeignFilesAreMadeAgain) {
@@ -54,7 +61,7 @@ TEST(ByteCache, DamagedAndForeignFilesAreMadeAgain) {
   write_bytes(folder / "b.cache", whole);
   EXPECT_FALSE(cache.recall("b")) << "bears the name a";
   cache.keep("a", "again");
-  EXPECT_EQ(cache.recall("a"), "again");
+  EXPECT_EQ(recalled(cache, "a"), "again");
 }
 
 TEST(ByteCache, ManyWritersAndReadersNeverSeeHalfAFile) {
@@ -66,12 +73,25 @@ TEST(ByteCache, ManyWritersAndReadersNeverSeeHalfAFile) {
       const ByteCache cache(folder.path());
       for (int k = 0; k < 20; ++k) {
         const auto kept = cache.recall("a");
-        EXPECT_TRUE(!kept || *kept == content);
+        EXPECT_TRUE(!kept || kept->bytes == content);
         cache.keep("a", content);
       }
     });
   threads.clear();
-  EXPECT_EQ(ByteCache(folder.path()).recall("a"), content);
+  EXPECT_EQ(recalled(ByteCache(folder.path()), "a"), content);
+}
+
+TEST(ByteCache, WhatWasRecalledOutlivesItsFile) {
+  const TemporaryFolder folder;
+  const ByteCache cache(folder.path());
+  const std::string content(100000, 'c');
+  cache.keep("a", content);
+  const std::optional<KeptBytes> kept = cache.recall("a");
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(kept->bytes.data()) % 64, 0U);
+  cache.keep("a", "another");
+  std::filesystem::remove(only_file(folder));
+  EXPECT_EQ(kept->bytes, content);
 }
 
 TEST(ByteCache, AFolderThatCannotBeMadeIsRefused) {

@@ -63,9 +63,8 @@ void BodyOperator::make_columns(std::span<const LoadCase> loads) {
     }
   }
   const std::string name = cache_name("columns", places.bytes());
-  if (const std::optional<std::string> bytes = system.cache->recall(name)) {
-    ByteReader in(*bytes);
-    columns_.get(in);
+  if (const std::optional<KeptBytes> known = system.cache->recall(name)) {
+    columns_.take(*known);
     return;
   }
   right_hand_sides(loads);

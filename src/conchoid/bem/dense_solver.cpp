@@ -44,9 +44,9 @@ class DenseSolver : public BodySolver {
   }
 
   bool recall(const KeptSystem& kept) {
-    const std::optional<std::string> bytes = kept.cache->recall(kept.name);
-    if (!bytes) return false;
-    ByteReader in(*bytes);
+    const std::optional<KeptBytes> known = kept.cache->recall(kept.name);
+    if (!known) return false;
+    ByteReader in(known->bytes);
     factors_.get(in);
     return true;
   }

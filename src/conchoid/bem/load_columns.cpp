@@ -50,11 +50,13 @@ std::vector<const double*> LoadColumns::columns(std::span<const LoadSource> sour
   }
   auto made = parallel_values(missing.size(), 1, [&](std::size_t i) { return integrate(missing[i]); });
   const std::lock_guard lock(mutex_);
-  for (std::size_t i = 0; i < missing.size(); ++i)
-    kept_.try_emplace(missing[i], std::move(made[i]));
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    const auto column = std::make_shared<const std::vector<double>>(std::move(made[i]));
+    kept_.try_emplace(missing[i], column, column->data());
+  }
   std::vector<const double*> out;
   for (const LoadSource& s : sources)
-    out.push_back(kept_.at(s).data());
+    out.push_back(kept_.at(s).get());
   return out;
 }
 
@@ -90,23 +92,30 @@ std::vector<double> LoadColumns::right_hand_side(const LoadCase& load) {
   return f;
 }
 
+// How many there are, kind and index of each, then the columns of each.
 void LoadColumns::put(ByteWriter& out) const {
   const std::lock_guard lock(mutex_);
+  const std::size_t length = 3 * entries_.body().unknowns() * sizeof(double);
   out.put(static_cast<std::uint64_t>(kept_.size()));
   for (const auto& [source, column] : kept_) {
-    out.put(static_cast<std::uint32_t>(source.kind == Prescribed::displacement));
+    out.put(static_cast<std::uint64_t>(source.kind == Prescribed::displacement));
     out.put(static_cast<std::uint64_t>(source.index));
-    out.put_all(std::span<const double>(column));
   }
+  for (const auto& [source, column] : kept_)
+    out.put_raw({reinterpret_cast<const char*>(column.get()), length});
 }
 
-void LoadColumns::get(ByteReader& in) {
+void LoadColumns::take(const KeptBytes& kept) {
   const std::lock_guard lock(mutex_);
+  const std::size_t length = 3 * entries_.body().unknowns() * sizeof(double);
+  ByteReader in(kept.bytes);
+  std::vector<LoadSource> sources;
   for (auto n = in.get<std::uint64_t>(); n > 0; --n) {
-    const auto kind = in.get<std::uint32_t>() == 0 ? Prescribed::traction : Prescribed::displacement;
-    const auto index = static_cast<std::size_t>(in.get<std::uint64_t>());
-    kept_.try_emplace({kind, index}, in.get_all<double>(3 * entries_.body().unknowns()));
+    const auto kind = in.get<std::uint64_t>() == 0 ? Prescribed::traction : Prescribed::displacement;
+    sources.push_back({kind, static_cast<std::size_t>(in.get<std::uint64_t>())});
   }
+  for (const LoadSource& source : sources)
+    kept_.try_emplace(source, kept.owner, reinterpret_cast<const double*>(in.get_raw(length).data()));
 }
 
 std::size_t LoadColumns::bytes() const {

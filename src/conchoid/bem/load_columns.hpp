@@ -8,6 +8,7 @@
 
 #include "conchoid/bem/body_entries.hpp"
 #include "conchoid/bem/load_case.hpp"
+#include "conchoid/core/byte_cache.hpp"
 #include "conchoid/core/bytes.hpp"
 
 namespace conchoid {
@@ -41,9 +42,9 @@ class LoadColumns {
   std::vector<double> right_hand_side(const LoadCase& load);
   std::size_t bytes() const;
 
-  /// Columns as they are, and back.
+  /// Columns as they are in memory, and back: what is taken stays where it is.
   void put(ByteWriter& out) const;
-  void get(ByteReader& in);
+  void take(const KeptBytes& kept);
 
  private:
   std::vector<double> integrate(const LoadSource& source) const;
@@ -52,7 +53,7 @@ class LoadColumns {
 
   const BodyEntries& entries_;
   mutable std::mutex mutex_;
-  std::map<LoadSource, std::vector<double>> kept_;  // three columns, without ½M
+  std::map<LoadSource, std::shared_ptr<const double>> kept_;  // three columns, without ½M
 };
 
 }  // namespace conchoid

@@ -85,8 +85,8 @@ QuadraticBody::QuadraticBody(TriMesh surface, std::vector<BoundaryKind> kinds, c
   const BodyDiscretisation& body = space_->corners;
   const KeptSystem kept = kept_system(cache, "quadratic", body.surface, body.kinds, m, quadrature_tolerance);
   if (kept.cache)
-    if (const std::optional<std::string> bytes = kept.cache->recall(kept.name)) {
-      ByteReader in(*bytes);
+    if (const std::optional<KeptBytes> known = kept.cache->recall(kept.name)) {
+      ByteReader in(known->bytes);
       factors_.get(in);
       return;
     }

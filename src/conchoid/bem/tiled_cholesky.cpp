@@ -55,7 +55,7 @@ void TiledCholesky::get(ByteReader& in) {
   if (in.get<std::uint64_t>() != n_) throw InputError("has factors of another size");
   scale_ = in.get<double>();
   for (auto& tile : data_)
-    tile = in.get_all<double>(tile.size());
+    in.get_into(std::span(tile));
 }
 
 std::size_t TiledCholesky::tile_rows(std::size_t i) const {

@@ -1,5 +1,9 @@
 #include "conchoid/core/byte_cache.hpp"
 
+#include <bit>
+#include <boost/interprocess/exceptions.hpp>
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstdint>
 #include <system_error>
 
@@ -12,19 +16,41 @@ namespace conchoid {
 namespace {
 
 constexpr std::string_view kMagic = "CNCHKEPT";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
+constexpr std::size_t kAlignment = 64;
 
-/// What is at the end of the file; in place, as it may be most of the memory.
-std::string content_of(std::string file, const std::string& name) {
+std::size_t up_to_alignment(std::size_t length) {
+  return (kAlignment - length % kAlignment) % kAlignment;
+}
+
+KeptBytes mapped(const std::filesystem::path& path) {
+  namespace ipc = boost::interprocess;
+  try {
+    if (std::filesystem::file_size(path) == 0) return {};
+    const ipc::file_mapping file(path.c_str(), ipc::read_only);
+    const auto region = std::make_shared<const ipc::mapped_region>(file, ipc::read_only);
+    return {region, {static_cast<const char*>(region->get_address()), region->get_size()}};
+  } catch (const ipc::interprocess_exception& e) {
+    throw InputError(std::string("cannot be read (") + e.what() + ")");
+  } catch (const std::filesystem::filesystem_error& e) {
+    throw InputError(std::string("cannot be read (") + e.code().message() + ")");
+  }
+}
+
+/// What is at the end of the file.
+std::string_view content_of(std::string_view file, const std::string& name) {
   ByteReader in(file);
   if (in.get_raw(kMagic.size()) != kMagic) throw InputError("is not a file of this cache");
   if (in.get<std::uint32_t>() != kVersion) throw InputError("has another version");
   const auto hash = in.get<std::uint64_t>();
   if (in.get_text() != name) throw InputError("bears another's name");
-  const std::string_view content = in.get_raw(in.get<std::uint64_t>());
-  if (in.left() > 0 || hash_bytes(content) != hash) throw InputError("is damaged");
-  file.erase(0, file.size() - content.size());
-  return file;
+  const auto length = in.get<std::uint64_t>();
+  const std::string_view padding = in.get_raw(up_to_alignment(file.size() - in.left()));
+  const std::string_view content = in.get_raw(length);
+  if (in.left() > 0 || padding.find_first_not_of('\0') != std::string_view::npos ||
+      hash_bytes(content) != hash)
+    throw InputError("is damaged");
+  return content;
 }
 
 }  // namespace
@@ -37,7 +63,7 @@ std::filesystem::path ByteCache::file_of(const std::string& name) const {
   return folder_ / (name + ".cache");
 }
 
-std::optional<std::string> ByteCache::recall(const std::string& name) const {
+std::optional<KeptBytes> ByteCache::recall(const std::string& name) const {
   const std::filesystem::path file = file_of(name);
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return std::nullopt;
@@ -45,7 +71,8 @@ std::optional<std::string> ByteCache::recall(const std::string& name) const {
     warning(file.string() + ": " + why + "; what it should hold is made again and takes its place");
   };
   try {
-    return content_of(read_bytes(file), name);
+    KeptBytes whole = mapped(file);
+    return KeptBytes{std::move(whole.owner), content_of(whole.bytes, name)};
   } catch (const InputError& e) {
     ignored(e.what());
   } catch (const OutOfBytes&) {
@@ -60,7 +87,9 @@ void ByteCache::keep(const std::string& name, std::string_view bytes) const {
   out.put(kVersion);
   out.put(hash_bytes(bytes));
   out.put_text(name);
-  out.put_text(bytes);
+  out.put(static_cast<std::uint64_t>(bytes.size()));
+  out.put_raw(std::string(up_to_alignment(out.bytes().size()), '\0'));
+  out.put_raw(bytes);
   try {
     write_bytes(file_of(name), out.bytes());
   } catch (const InputError& e) {
@@ -74,6 +103,7 @@ std::string cache_name(const std::string& kind, std::string_view made_from) {
   ByteWriter all;
   all.put_text(CONCHOID_VERSION);
   all.put_text(__VERSION__);
+  all.put(static_cast<std::uint32_t>(std::endian::native == std::endian::little));
 #if defined(__x86_64__)  // by which BLAS and our own kernels choose their instructions
   for (const int has :
        {__builtin_cpu_supports("avx2"), __builtin_cpu_supports("fma"), __builtin_cpu_supports("avx512f")})

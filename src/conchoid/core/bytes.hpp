@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -91,9 +92,18 @@ class ByteReader {
   std::vector<T> get_all(std::size_t n) {
     if (n > rest_.size() / sizeof(decltype(ByteWriter::to_bits(T{})))) throw OutOfBytes();
     std::vector<T> values(n);
-    for (T& v : values)
-      v = get<T>();
+    get_into(std::span(values));
     return values;
+  }
+  template <class T>
+  void get_into(std::span<T> values) {
+    if constexpr (std::endian::native == std::endian::little && sizeof(T) >= 4) {
+      const std::string_view raw = get_raw(values.size_bytes());
+      if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
+    } else {
+      for (T& v : values)
+        v = get<T>();
+    }
   }
   std::string get_text() { return std::string(get_raw(get<std::uint64_t>())); }
   std::string_view get_raw(std::size_t n) {

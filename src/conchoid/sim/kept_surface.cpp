@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "conchoid/core/bytes.hpp"
@@ -21,7 +22,7 @@ void put(ByteWriter& out, const TriMesh& mesh) {
       out.put(n.value);
 }
 
-TriMesh mesh_of(const std::string& bytes) {
+TriMesh mesh_of(std::string_view bytes) {
   ByteReader in(bytes);
   TriMesh mesh;
   for (auto n = in.get<std::uint64_t>(); n > 0; --n) {
@@ -60,7 +61,7 @@ TriMesh kept_remesh(const TriMesh& surface, int triangles, const RemeshSettings&
   all.put(triangles);
   all.put(settings.follow_thickness);
   const std::string name = cache_name("remesh", all.bytes());
-  if (const std::optional<std::string> kept = cache->recall(name)) return mesh_of(*kept);
+  if (const std::optional<KeptBytes> kept = cache->recall(name)) return mesh_of(kept->bytes);
   TriMesh out = remesh(surface, triangles, settings);
   ByteWriter bytes;
   put(bytes, out);
