@@ -82,12 +82,15 @@ std::vector<double> LoadColumns::right_hand_side(const LoadCase& load) {
   add_mass(load, f);
   const std::vector<LoadSource> sources = sources_of(load);
   const std::vector<const double*> column = columns(sources);
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    const Vec3 value = value_at(load, sources[s]);
-    for (int c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < n; ++i)
-        f[i] += value[c] * column[s][static_cast<std::size_t>(c) * n + i];
-  }
+  constexpr std::size_t of_task = 512;
+  parallel_for(n, of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      const Vec3 value = value_at(load, sources[s]);
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t i = begin; i < end; ++i)
+          f[i] += value[c] * column[s][static_cast<std::size_t>(c) * n + i];
+    }
+  });
   entries_.body().keep_unknown(f.data());
   return f;
 }
