@@ -28,8 +28,8 @@ Matrix random_matrix(Eigen::Index rows, Eigen::Index columns, Random& random) {
 /// Two stretches of 5 and 3, and one row alone.
 const std::vector<char> kGoesOn{1, 1, 1, 1, 0, 1, 1, 0, 0};
 
-FrontNetwork drawn(Random& random) {
-  FrontNetwork network(4, 6, 2, 3);
+FrontNetwork drawn(Random& random, int width = 6) {
+  FrontNetwork network(4, width, 2, 3);
   network.draw(random);
   for (float& p : network.parameters())
     if (p == 0) p = static_cast<float>(0.3 * random.normal());
@@ -56,17 +56,20 @@ TEST(FrontNetwork, TheGradientIsThatOfTheLoss) {
   }
 }
 
+// Widths of which answers take eight rows at a time, sixteen, and what is left.
 TEST(FrontNetwork, TheLossIsThatOfTheAnswers) {
-  Random random(2);
-  const FrontNetwork network = drawn(random);
-  const Matrix rows = random_matrix(4, 9, random), wanted = random_matrix(3, 9, random);
-  const Matrix answer = network.answer(rows, kGoesOn);
-  double of_answers = 0;
-  for (Eigen::Index i = 0; i < answer.size(); ++i) {
-    const double e = std::abs(static_cast<double>(answer.data()[i] - wanted.data()[i]));
-    of_answers += (e <= 0.5 ? e * e : e - 0.25) / 9;
+  for (const int width : {6, 8, 13, 16, 43}) {
+    Random random(2);
+    const FrontNetwork network = drawn(random, width);
+    const Matrix rows = random_matrix(4, 9, random), wanted = random_matrix(3, 9, random);
+    const Matrix answer = network.answer(rows, kGoesOn);
+    double of_answers = 0;
+    for (Eigen::Index i = 0; i < answer.size(); ++i) {
+      const double e = std::abs(static_cast<double>(answer.data()[i] - wanted.data()[i]));
+      of_answers += (e <= 0.5 ? e * e : e - 0.25) / 9;
+    }
+    EXPECT_NEAR(network.loss(rows, kGoesOn, wanted), of_answers, 1e-5 * of_answers) << "width " << width;
   }
-  EXPECT_NEAR(network.loss(rows, kGoesOn, wanted), of_answers, 1e-5 * of_answers);
 }
 
 // The sense in which a front is walked along does not matter, a row of another stretch does not, and every one of its own does.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <random>
 
 #include "conchoid/core/error.hpp"
 #include "pair_table.hpp"
@@ -46,6 +47,40 @@ TEST(Invariance, SymmetricAlsoWithoutIds) {
   for (const NamedPair& p : oracle::near_pairs()) {
     const Panel x = oracle::panel(p.x.x), y = oracle::panel(p.y.x);
     EXPECT_EQ(integrator.single_layer(x, y).tensor, integrator.single_layer(y, x).tensor) << p.name;
+  }
+}
+
+// Among far pairs of all rules, so that groups of every length come about.
+TEST(Invariance, ManyPairsTogetherHaveTheBitsOfEach) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> within(-1, 1);
+  const auto vector = [&](double size) {
+    return Vec3(size * Vec3(within(random), within(random), within(random)));
+  };
+  std::vector<Panel> panels;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 center = vector(4);
+    panels.push_back(make_panel({center + vector(0.5), center + vector(0.5), center + vector(0.5)},
+                                {NodeId(3 * i), NodeId(3 * i + 1), NodeId(3 * i + 2)}));
+  }
+  const std::vector<NamedPair> named = all_pairs();
+  std::vector<PanelPair> pairs;
+  for (std::size_t i = 0; i < 400; ++i) {
+    pairs.push_back({&panels[i * 37 % panels.size()], &panels[i * 101 % panels.size()]});
+    if (i % 5 == 0) pairs.push_back({&named[i % named.size()].x, &named[i % named.size()].y});
+  }
+  for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
+    const PairIntegrator integrator(tolerance);
+    std::vector<SingleLayerPair> single(pairs.size());
+    std::vector<DoubleLayerPair> dbl(pairs.size());
+    integrator.single_layer(pairs, single.data());
+    integrator.double_layer(pairs, dbl.data());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const SingleLayerPair alone = integrator.single_layer(*pairs[i].x, *pairs[i].y);
+      ASSERT_EQ(single[i].laplace, alone.laplace) << i;
+      ASSERT_EQ(single[i].tensor, alone.tensor) << i;
+      ASSERT_EQ(dbl[i], integrator.double_layer(*pairs[i].x, *pairs[i].y)) << i;
+    }
   }
 }
 
