@@ -35,8 +35,10 @@ bool moves(const Fracture& fracture) {
           !find_crack_sites(fracture.body(), fracture.crack(), fracture.solution(), 1).empty());
 }
 
-// The pieces, mended; none where not all of them are solids. @param shift  of the cracks, along their mean normal [m]
-std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, double shift) {
+// The pieces, mended; none where not all of them are solids.
+// @param shift  of the cracks, along their mean normal [m]  @param most  × volume that mending may take or add
+std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, double shift,
+                                   double most) {
   Vec3 normal = Vec3::Zero();
   const TriMesh& sheet = fracture.crack().sheet.mesh;
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
@@ -47,7 +49,7 @@ std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& o
     Fragment& f = cut.fragments[i];
     solid[i] = is_solid(f);
     if (solid[i]) return;
-    mend_fragment(f);
+    mend_fragment(f, most);
     solid[i] = is_solid(f);
   });
   if (std::find(solid.begin(), solid.end(), 0) != solid.end()) return std::nullopt;
@@ -286,9 +288,20 @@ void Breakup::State::end_piece() {
   if (interrupted() || !(grown() || fracture->parted()))
     return;  // a last ligament may break before anything grows
   std::optional<Pieces> clean;
-  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i) {
-    clean = solid_pieces(*fracture, output, kShifts[i] * body->surface_edge);
+  const auto cut = [&](double shift, double most) {
+    clean = solid_pieces(*fracture, output, shift * body->surface_edge, most);
     if (clean && fracture->parted() && clean->fragments.size() < 2) clean.reset();
+  };
+  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i)
+    cut(kShifts[i], kMendedVolume);
+  if (!clean) {
+    cut(0, kRoughlyMendedVolume);
+    if (clean)
+      warnings.push_back(
+          fmt::format("after frame {}: a part of a piece that broke further folds over itself; it is mended "
+                      "there, at the cost of up to {:g} of "
+                      "its volume",
+                      fracture->frame(), kRoughlyMendedVolume));
   }
   if (!clean) {
     warnings.push_back(

@@ -14,7 +14,8 @@
 namespace conchoid {
 namespace {
 
-constexpr int kMostRings = 3;  // of triangles around a fold
+constexpr int kMostRings = 3;   // of triangles around a fold
+constexpr int kMostPasses = 4;  // where what is made anew folds once more
 
 bool is_solid(const TriMesh& mesh) {
   return is_watertight(mesh) && self_intersections(mesh, 1).empty();
@@ -30,16 +31,17 @@ std::vector<TriId> nearest_faces(const TriMesh& of, const TriMesh& on) {
 }
 
 // The triangles around the folds made anew, as few as will do; else all that mending can do.
-std::optional<TriMesh> unfolded(const TriMesh& mesh) {
+std::optional<TriMesh> unfolded(const TriMesh& mesh, double most) {
   const double volume = enclosed_volume(mesh);
   const auto good = [&](const TriMesh& tried) {
-    return is_solid(tried) && std::abs(enclosed_volume(tried) - volume) <= kMendedVolume * std::abs(volume);
+    return is_solid(tried) && std::abs(enclosed_volume(tried) - volume) <= most * std::abs(volume);
   };
   for (int rings = 0; rings <= kMostRings; ++rings) {
     TriMesh tried = mesh;
-    if (patch_intersections(tried, rings) == 0) break;
-    drop_unused_nodes(tried);
-    if (good(tried)) return tried;
+    for (int pass = 0; pass < kMostPasses && patch_intersections(tried, rings) > 0; ++pass) {
+      drop_unused_nodes(tried);
+      if (good(tried)) return tried;
+    }
   }
   MendReport report;
   TriMesh tried = mended(mesh, report);
@@ -47,9 +49,9 @@ std::optional<TriMesh> unfolded(const TriMesh& mesh) {
 }
 
 // Whether it was changed.
-bool mend_surface(Fragment& f) {
+bool mend_surface(Fragment& f, double most) {
   if (is_solid(f.mesh)) return false;
-  std::optional<TriMesh> mesh = unfolded(f.mesh);
+  std::optional<TriMesh> mesh = unfolded(f.mesh, most);
   if (!mesh) return false;
   std::vector<FaceKind> kind;
   std::vector<TriId> source;
@@ -66,9 +68,9 @@ bool mend_surface(Fragment& f) {
 }
 
 // Likewise. The slits that part its faces in the piece can hide where they pass through each other.
-bool mend_solid(UnfinishedCracks& cracks) {
+bool mend_solid(UnfinishedCracks& cracks, double most) {
   if (cracks.solid.corners.empty() || is_solid(cracks.solid)) return false;
-  std::optional<TriMesh> solid = unfolded(cracks.solid);
+  std::optional<TriMesh> solid = unfolded(cracks.solid, most);
   if (solid) cracks.solid = std::move(*solid);
   return solid.has_value();
 }
@@ -79,8 +81,8 @@ bool is_solid(const Fragment& fragment) {
   return is_solid(fragment.mesh);
 }
 
-void mend_fragment(Fragment& f) {
-  const bool surface = mend_surface(f), solid = mend_solid(f.unfinished);
+void mend_fragment(Fragment& f, double most) {
+  const bool surface = mend_surface(f, most), solid = mend_solid(f.unfinished, most);
   if ((surface || solid) && !f.unfinished.solid.corners.empty())
     f.unfinished.solid_face = nearest_faces(f.unfinished.solid, f.mesh);
 }

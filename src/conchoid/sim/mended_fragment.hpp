@@ -4,8 +4,8 @@
 
 namespace conchoid {
 
-/// × volume of a piece: what mending it may take or add.
-inline constexpr double kMendedVolume = 1e-6;
+/// × volume of a piece: what mending it may take or add; and where nothing else will do and somebody is told.
+inline constexpr double kMendedVolume = 1e-6, kRoughlyMendedVolume = 1e-3;
 
 /// Whether a piece is closed and passes nowhere through itself.
 bool is_solid(const Fragment& fragment);
@@ -13,7 +13,7 @@ bool is_solid(const Fragment& fragment);
 /// A piece whose nodes, rounded where it was cut before, fold it over itself by less than can be seen: mended
 /// there (remesh/mend.hpp), with and without its slits, what its faces are taken from the old ones nearest to them. Mass
 /// and volume stay as they were. Left as it is where that does not make it a solid, or where it would take more of its volume than
-/// kMendedVolume.
-void mend_fragment(Fragment& fragment);
+/// that. @param most  × volume
+void mend_fragment(Fragment& fragment, double most = kMendedVolume);
 
 }  // namespace conchoid
