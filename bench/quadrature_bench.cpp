@@ -47,17 +47,14 @@ std::vector<Pair> pairs_of(Layout layout, double tolerance) {
   return pairs;
 }
 
-std::vector<PanelPair> side_by_side_of(const std::vector<Pair>& pairs) {
+// `fast` takes all pairs, the oracle every `stride`-th.
+template <class Integrals, class Fast, class Slow, class Error>
+void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast fast, Slow slow,
+                   Error error) {
   std::vector<PanelPair> all;
   for (const Pair& p : pairs)
     all.push_back({&p.x, &p.y});
-  return all;
-}
-
-// `fast` takes all pairs, the oracle every `stride`-th.
-template <class Fast, class Slow, class Error>
-void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast fast, Slow slow,
-                   Error error) {
+  std::vector<Integrals> integrals(all.size());
   const std::size_t stride = pairs.size() > 100 ? 50 : 1;
   const std::size_t taken = (pairs.size() + stride - 1) / stride;
   const double share = static_cast<double>(taken) / static_cast<double>(pairs.size());
@@ -66,8 +63,10 @@ void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast
       state,
       [&] {
         return seconds([&] {
-                 for (std::size_t round = 0; round < rounds; ++round)
-                   fast();
+                 for (std::size_t round = 0; round < rounds; ++round) {
+                   fast(all, integrals.data());
+                   benchmark::DoNotOptimize(integrals.data());
+                 }
                }) /
                static_cast<double>(rounds);
       },
@@ -89,15 +88,11 @@ void compare_pairs(benchmark::State& state, const std::vector<Pair>& pairs, Fast
 
 void single_layer(benchmark::State& state, Layout layout, double tolerance) {
   const PairIntegrator integrator(tolerance);
-  const std::vector<Pair> pairs = pairs_of(layout, tolerance);
-  const std::vector<PanelPair> all = side_by_side_of(pairs);
-  std::vector<SingleLayerPair> out(all.size());
-  const auto fast = [&] {
-    integrator.single_layer(all, out.data());
-    benchmark::DoNotOptimize(out.data());
+  const auto fast = [&](const std::vector<PanelPair>& all, SingleLayerPair* out) {
+    integrator.single_layer(all, out);
   };
   const auto slow = [&](const Pair& p) { return oracle::single_layer(p.x, p.y, tolerance); };
-  compare_pairs(state, pairs, fast, slow, [&](const Pair& p) {
+  compare_pairs<SingleLayerPair>(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
     return oracle::relative_error(oracle::family(integrator.single_layer(p.x, p.y)),
                                   oracle::single_layer(p.x, p.y, 1e-10));
   });
@@ -105,15 +100,11 @@ void single_layer(benchmark::State& state, Layout layout, double tolerance) {
 
 void double_layer(benchmark::State& state, Layout layout, double tolerance) {
   const PairIntegrator integrator(tolerance);
-  const std::vector<Pair> pairs = pairs_of(layout, tolerance);
-  const std::vector<PanelPair> all = side_by_side_of(pairs);
-  std::vector<DoubleLayerPair> out(all.size());
-  const auto fast = [&] {
-    integrator.double_layer(all, out.data());
-    benchmark::DoNotOptimize(out.data());
+  const auto fast = [&](const std::vector<PanelPair>& all, DoubleLayerPair* out) {
+    integrator.double_layer(all, out);
   };
   const auto slow = [&](const Pair& p) { return oracle::double_layer(p.x, p.y, tolerance); };
-  compare_pairs(state, pairs, fast, slow, [&](const Pair& p) {
+  compare_pairs<DoubleLayerPair>(state, pairs_of(layout, tolerance), fast, slow, [&](const Pair& p) {
     return oracle::double_layer_error(p.x, p.y, oracle::vector(integrator.double_layer(p.x, p.y)),
                                       oracle::double_layer(p.x, p.y, 1e-10));
   });

@@ -1,6 +1,7 @@
 #include "conchoid/bem/body_entries.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <type_traits>
 
@@ -117,28 +118,26 @@ void BodyDiscretisation::keep_unknown(double* x) const {
 void BodyEntries::keep_pairs() {
   const std::size_t n = body_.panels.size();
   pairs_.resize(n * (n + 1) / 2);
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
   parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
-    std::vector<PanelPair> row;
-    for (std::size_t x = begin; x < end; ++x) {
-      row.clear();
-      for (std::size_t y = 0; y <= x; ++y)
-        row.push_back(panels(x, y));
-      body_.integrator.single_layer(row, &pairs_[x * (x + 1) / 2]);
-    }
+    for (std::size_t x = begin; x < end; ++x)
+      body_.integrator.single_layer(pairs_with(x, std::span(all).first(x + 1)), &pairs_[x * (x + 1) / 2]);
   });
 }
 
-PanelPair BodyEntries::panels(std::size_t x, std::size_t y) const {
-  return {&body_.panels[x], &body_.panels[y]};
+std::vector<PanelPair> BodyEntries::pairs_with(std::size_t x, std::span<const std::size_t> others) const {
+  std::vector<PanelPair> pairs;
+  pairs.reserve(others.size());
+  for (const std::size_t y : others)
+    pairs.push_back({&body_.panels[x], &body_.panels[y]});
+  return pairs;
 }
 
 std::vector<SingleLayerPair> BodyEntries::row(std::size_t x, std::span<const std::size_t> others) const {
   std::vector<SingleLayerPair> out(others.size());
   if (pairs_.empty()) {
-    std::vector<PanelPair> wanted;
-    for (const std::size_t y : others)
-      wanted.push_back(panels(x, y));
-    body_.integrator.single_layer(wanted, out.data());
+    body_.integrator.single_layer(pairs_with(x, others), out.data());
     return out;
   }
   const auto place = [&](std::size_t y) {
@@ -172,11 +171,8 @@ void BodyEntries::double_layer(std::span<const TriId> rows, std::span<const Node
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t x = rows[i].index();
     const std::vector<SingleLayerPair> pairs = row(x, trial);
-    std::vector<PanelPair> wanted;
-    for (const std::size_t y : trial)
-      wanted.push_back(panels(x, y));
     std::vector<DoubleLayerPair> laplace(trial.size());
-    body_.integrator.double_layer(wanted, laplace.data());
+    body_.integrator.double_layer(pairs_with(x, trial), laplace.data());
     for (std::size_t t = 0; t < trial.size(); ++t) {
       const PairBlocks blocks(pairs[t], body_.m);
       for (int k = 0; k < 3; ++k)

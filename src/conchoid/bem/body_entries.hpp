@@ -82,7 +82,7 @@ class BodyEntries {
   void drop_pairs() { pairs_.clear(); }
 
  private:
-  PanelPair panels(std::size_t x, std::size_t y) const;
+  std::vector<PanelPair> pairs_with(std::size_t x, std::span<const std::size_t> others) const;
   /// The single layer of x with each of the others.
   std::vector<SingleLayerPair> row(std::size_t x, std::span<const std::size_t> others) const;
 

@@ -271,24 +271,25 @@ class RowAssembler {
   struct Wanted {
     std::vector<PanelPair> pairs;
     std::vector<Integrals*> to;
-    std::vector<Integrals> made;
     void add(const Panel& x, const Panel& y, Integrals& place) {
       pairs.push_back({&x, &y});
       to.push_back(&place);
     }
   };
 
-  void compute(Wanted<SingleLayerPair>& w) const { integrator_.single_layer(w.pairs, w.made.data()); }
-  void compute(Wanted<DoubleLayerPair>& w) const { integrator_.double_layer(w.pairs, w.made.data()); }
+  void compute(std::span<const PanelPair> pairs, SingleLayerPair* out) const {
+    integrator_.single_layer(pairs, out);
+  }
+  void compute(std::span<const PanelPair> pairs, DoubleLayerPair* out) const {
+    integrator_.double_layer(pairs, out);
+  }
 
   template <class Integrals>
-  void integrate(Wanted<Integrals>& w) const {
-    w.made.resize(w.pairs.size());
-    compute(w);
-    for (std::size_t i = 0; i < w.to.size(); ++i)
-      *w.to[i] = w.made[i];
-    w.pairs.clear();
-    w.to.clear();
+  void integrate(const Wanted<Integrals>& wanted) const {
+    std::vector<Integrals> made(wanted.pairs.size());
+    compute(wanted.pairs, made.data());
+    for (std::size_t i = 0; i < made.size(); ++i)
+      *wanted.to[i] = made[i];
   }
 
   void single_layer(std::size_t x, std::size_t y, SingleLayerPair& to,

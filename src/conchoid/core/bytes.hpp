@@ -32,6 +32,10 @@ struct OutOfBytes : std::runtime_error {
   OutOfBytes() : std::runtime_error("unexpected end of data") {}
 };
 
+/// Whether numbers lie in memory as they are written.
+template <class T>
+inline constexpr bool kWrittenAsItLies = std::endian::native == std::endian::little && sizeof(T) >= 4;
+
 /// Appends numbers in little-endian order whatever the machine.
 class ByteWriter {
  public:
@@ -41,7 +45,7 @@ class ByteWriter {
   }
   template <class T>
   void put_all(std::span<const T> values) {
-    if constexpr (std::endian::native == std::endian::little && sizeof(T) >= 4) {
+    if constexpr (kWrittenAsItLies<T>) {
       bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     } else {
       for (const T& v : values)
@@ -97,7 +101,7 @@ class ByteReader {
   }
   template <class T>
   void get_into(std::span<T> values) {
-    if constexpr (std::endian::native == std::endian::little && sizeof(T) >= 4) {
+    if constexpr (kWrittenAsItLies<T>) {
       const std::string_view raw = get_raw(values.size_bytes());
       if (!raw.empty()) std::memcpy(values.data(), raw.data(), raw.size());
     } else {

@@ -108,6 +108,14 @@ void set_lane(CornerLanes& corners, int lane, const Triangle& t) {
       corners.of[k][i][lane] = t[i][k];
 }
 
+void set_lanes(CornerLanes& x, CornerLanes& y, std::span<const PanelPair> pairs) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    const PanelPair& pair = pair_of(pairs, lane);
+    set_lane(x, lane, pair.x->x);
+    set_lane(y, lane, pair.y->x);
+  }
+}
+
 }  // namespace
 
 FarDegrees far_degrees(const FarLimits& limits, Layer layer, const Panel& x, const Panel& y) {
@@ -118,11 +126,7 @@ FarDegrees far_degrees(const FarLimits& limits, Layer layer, const Panel& x, con
 
 void far_single_layer(std::span<const PanelPair> pairs, FarDegrees degrees, Family* out) {
   CornerLanes x, y;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const PanelPair& pair = pair_of(pairs, lane);
-    set_lane(x, lane, pair.x->x);
-    set_lane(y, lane, pair.y->x);
-  }
+  set_lanes(x, y, pairs);
   Lanes s[6];
   sum_single_layers(x, rule_arrays(degrees.x), y, rule_arrays(degrees.y), s);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -133,14 +137,11 @@ void far_single_layer(std::span<const PanelPair> pairs, FarDegrees degrees, Fami
 
 void far_double_layer(std::span<const PanelPair> pairs, FarDegrees degrees, Vec3* out) {
   CornerLanes x, y;
+  set_lanes(x, y, pairs);
   Lanes normal[3];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const PanelPair& pair = pair_of(pairs, lane);
-    set_lane(x, lane, pair.x->x);
-    set_lane(y, lane, pair.y->x);
+  for (int lane = 0; lane < lanes; ++lane)
     for (int k = 0; k < 3; ++k)
-      normal[k][lane] = pair.y->normal[k];
-  }
+      normal[k][lane] = pair_of(pairs, lane).y->normal[k];
   Lanes s[3];
   sum_double_layers(x, rule_arrays(degrees.x), y, rule_arrays(degrees.y), normal, s);
   for (std::size_t i = 0; i < pairs.size(); ++i)

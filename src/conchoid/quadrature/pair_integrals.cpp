@@ -71,7 +71,7 @@ class FarGroups {
   FarGroups(const Compute& compute, const Put& put) : compute_(compute), put_(put) {}
 
   void add(const PanelPair& pair, FarDegrees degrees, std::size_t at) {
-    const std::size_t group = static_cast<std::size_t>(degrees.x * kDegrees + degrees.y), i = count_[group]++;
+    const std::size_t group = group_of(degrees), i = count_[group]++;
     pairs_[group][i] = pair;
     at_[group][i] = at;
     if (i + 1 == lanes) finish(degrees);
@@ -79,15 +79,19 @@ class FarGroups {
   void finish() {
     for (int x = 0; x < kDegrees; ++x)
       for (int y = 0; y < kDegrees; ++y)
-        if (count_[static_cast<std::size_t>(x * kDegrees + y)] > 0) finish({x, y});
+        if (count_[group_of({x, y})] > 0) finish({x, y});
   }
 
  private:
   static constexpr int kDegrees = max_degree + 1;
   static constexpr std::size_t kGroups = static_cast<std::size_t>(kDegrees) * kDegrees;
 
+  static std::size_t group_of(FarDegrees degrees) {
+    return static_cast<std::size_t>(degrees.x * kDegrees + degrees.y);
+  }
+
   void finish(FarDegrees degrees) {
-    const auto group = static_cast<std::size_t>(degrees.x * kDegrees + degrees.y);
+    const std::size_t group = group_of(degrees);
     std::array<Result, lanes> results;
     compute_(std::span<const PanelPair>(pairs_[group].data(), count_[group]), degrees, results.data());
     for (std::size_t i = 0; i < count_[group]; ++i)

@@ -20,8 +20,18 @@
 namespace conchoid {
 namespace {
 
-constexpr std::array kShifts{0.0, 0.02, -0.02, 0.05, -0.05};  // × edge of the surface, tried in turn
-constexpr double kSmallestVolume = 8;                         // × r̄³: two edges of the cracks each way
+// How a piece that broke further is cut, tried in turn.
+struct WayToCut {
+  double shift;        // of the cracks, along their mean normal, × edge of the surface
+  double most_mended;  // × volume of a part: what mending it may take or add
+};
+constexpr std::array<WayToCut, 6> kWaysToCut{{{0, kMendedVolume},
+                                              {0.02, kMendedVolume},
+                                              {-0.02, kMendedVolume},
+                                              {0.05, kMendedVolume},
+                                              {-0.05, kMendedVolume},
+                                              {0, kRoughlyMendedVolume}}};
+constexpr double kSmallestVolume = 8;  // × r̄³: two edges of the cracks each way
 
 // Whether a crack starts or grows in a frame whose openings are known.
 bool moves(const Fracture& fracture) {
@@ -36,20 +46,19 @@ bool moves(const Fracture& fracture) {
 }
 
 // The pieces, mended; none where not all of them are solids.
-// @param shift  of the cracks, along their mean normal [m]  @param most  × volume that mending may take or add
-std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, double shift,
-                                   double most) {
+std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, const WayToCut& way) {
   Vec3 normal = Vec3::Zero();
   const TriMesh& sheet = fracture.crack().sheet.mesh;
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
     normal += area_vector(sheet, TriId(t));
+  const double shift = way.shift * fracture.body().surface_edge;
   Pieces cut = cut_into_pieces(fracture, output, shift * normal.normalized());
   std::vector<char> solid(cut.fragments.size());
   parallel_for(solid.size(), 1, [&](std::size_t i, std::size_t) {
     Fragment& f = cut.fragments[i];
     solid[i] = is_solid(f);
     if (solid[i]) return;
-    mend_fragment(f, most);
+    mend_fragment(f, way.most_mended);
     solid[i] = is_solid(f);
   });
   if (std::find(solid.begin(), solid.end(), 0) != solid.end()) return std::nullopt;
@@ -288,20 +297,16 @@ void Breakup::State::end_piece() {
   if (interrupted() || !(grown() || fracture->parted()))
     return;  // a last ligament may break before anything grows
   std::optional<Pieces> clean;
-  const auto cut = [&](double shift, double most) {
-    clean = solid_pieces(*fracture, output, shift * body->surface_edge, most);
+  for (const WayToCut& way : kWaysToCut) {
+    clean = solid_pieces(*fracture, output, way);
     if (clean && fracture->parted() && clean->fragments.size() < 2) clean.reset();
-  };
-  for (std::size_t i = 0; i < kShifts.size() && !clean; ++i)
-    cut(kShifts[i], kMendedVolume);
-  if (!clean) {
-    cut(0, kRoughlyMendedVolume);
-    if (clean)
+    if (!clean) continue;
+    if (way.most_mended > kMendedVolume)
       warnings.push_back(
           fmt::format("after frame {}: a part of a piece that broke further folds over itself; it is mended "
-                      "there, at the cost of up to {:g} of "
-                      "its volume",
-                      fracture->frame(), kRoughlyMendedVolume));
+                      "there, at the cost of up to {:g} of its volume",
+                      fracture->frame(), way.most_mended));
+    break;
   }
   if (!clean) {
     warnings.push_back(
