@@ -19,6 +19,30 @@ void expect_good(const TriMesh& mesh, const RemeshReport& report, int target) {
   EXPECT_NEAR(report.smallest_angle, smallest_angle_degrees(mesh), 1e-9);
 }
 
+// 1 deep, a unit long for each ridge, grooves of a half between ridges 1 high.
+TriMesh grooved_slab(int ridges) {
+  const int columns = 2 * ridges + 1;
+  TriMesh mesh;
+  for (int i = 0; i < columns; ++i)
+    for (const double y : {0.0, 1.0})
+      for (const double z : {0.0, i % 2 == 0 ? 0.5 : 1.0})
+        mesh.positions.add({0.5 * i, y, z});
+  const auto quad = [&mesh](int a, int b, int c, int d) {
+    mesh.corners.push_back({NodeId(a), NodeId(b), NodeId(c)});
+    mesh.corners.push_back({NodeId(a), NodeId(c), NodeId(d)});
+  };
+  const int last = 4 * (columns - 1);
+  for (int i = 0; i < last; i += 4) {
+    quad(i, i + 2, i + 6, i + 4);      // below
+    quad(i + 1, i + 5, i + 7, i + 3);  // above
+    quad(i, i + 4, i + 5, i + 1);
+    quad(i + 2, i + 3, i + 7, i + 6);
+  }
+  quad(0, 1, 3, 2);
+  quad(last, last + 2, last + 3, last + 1);
+  return mesh;
+}
+
 TEST(Remesh, BallBecomesCoarserAndStaysABall) {
   const TriMesh ball = icosphere(1, 5);
   for (const int target : {200, 1000, 3000}) {
@@ -102,6 +126,23 @@ TEST(Remesh, FarFromTheOriginGivesTheSameSurface) {
 
 TEST(Remesh, TooFewTrianglesAreRefused) {
   EXPECT_THROW(remesh(icosphere(1, 2), 4), InputError);
+}
+
+// A slab with many grooves needs nodes along all of them: what it says that it allows is what can be had.
+TEST(Remesh, CountThatAShapeDoesNotAllowTellsOneThatItDoes) {
+  const TriMesh comb = grooved_slab(12);
+  std::size_t allowed = 0;
+  try {
+    remesh(comb, 40);
+  } catch (const TriangleCountError& error) {
+    allowed = error.allowed();
+    EXPECT_NE(std::string(error.what()).find(std::to_string(allowed)), std::string::npos) << error.what();
+  }
+  ASSERT_GT(allowed, 44u);
+  EXPECT_FALSE(remesh_meets(40, allowed));
+  const TriMesh mesh = remesh(comb, static_cast<int>(allowed));
+  EXPECT_TRUE(remesh_meets(static_cast<int>(allowed), mesh.triangle_count()));
+  EXPECT_NEAR(enclosed_volume(mesh), enclosed_volume(comb), 1e-3 * enclosed_volume(comb));
 }
 
 }  // namespace

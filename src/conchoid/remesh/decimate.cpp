@@ -42,12 +42,11 @@ struct Quadric {
   }
 };
 
+/// Short, as most are out of date when their turn comes: how they would merge is found anew then.
 struct Candidate {
   double cost;
   Edge edge;
   std::uint32_t version;  ///< sum of the ends' versions when it was made
-  FeatureLines::Merge merge;
-  Vec3 at;
   bool operator<(
       const Candidate& other) const {  // the queue gives out the largest: smallest cost, then smallest ids
     return cost != other.cost ? cost > other.cost : edge > other.edge;
@@ -118,8 +117,10 @@ class Decimation {
       if (versions_[best.edge.a] + versions_[best.edge.b] != best.version || !mesh_.alive(best.edge.a) ||
           !mesh_.alive(best.edge.b))
         continue;
-      const auto [removed, kept, may_move] = best.merge;
-      if (!mesh_.collapse(removed, kept, best.at)) continue;
+      const auto merge = features_.merge(best.edge);
+      if (!merge) continue;
+      const auto [removed, kept, may_move] = *merge;
+      if (!mesh_.collapse(removed, kept, place(best.edge, *merge, sum(best.edge)))) continue;
       progress.advance(2);
       features_.was_collapsed(removed, kept);
       quadrics_[kept] += quadrics_[removed];
@@ -133,19 +134,28 @@ class Decimation {
   void propose(const Edge& e) {
     const auto merge = features_.merge(e);
     if (!merge) return;
-    Quadric sum = quadrics_[e.a];
-    sum += quadrics_[e.b];
-    const Vec3 middle = 0.5 * (mesh_.position(e.a) + mesh_.position(e.b));
-    const Vec3 at = merge->may_move ? sum.minimum(middle) : mesh_.position(merge->kept);
+    const Quadric both = sum(e);
+    const Vec3 at = place(e, *merge, both);
     const double length2 = (mesh_.position(e.a) - mesh_.position(e.b)).squaredNorm();
     if (longest_ < infinity)
       for (const NodeId end : {e.a, e.b})
         for (const NodeId n : mesh_.neighbours(end))
           if ((mesh_.position(n) - at).norm() > longest_) return;
-    constexpr double preference_for_short_edges = 1e-4;             // decides where the surface is flat
-    if (sum(at) > tolerance_ * tolerance_ * sum.a.trace()) return;  // the trace is the area merged
-    queue_.push({sum(at) + preference_for_short_edges * length2 * length2, e, versions_[e.a] + versions_[e.b],
-                 *merge, at});
+    constexpr double preference_for_short_edges = 1e-4;  // decides where the surface is flat
+    const double error = both(at);
+    if (error > tolerance_ * tolerance_ * both.a.trace()) return;  // the trace is the area merged
+    queue_.push({error + preference_for_short_edges * length2 * length2, e, versions_[e.a] + versions_[e.b]});
+  }
+
+  Quadric sum(const Edge& e) const {
+    Quadric both = quadrics_[e.a];
+    both += quadrics_[e.b];
+    return both;
+  }
+
+  Vec3 place(const Edge& e, const FeatureLines::Merge& merge, const Quadric& sum) const {
+    return merge.may_move ? sum.minimum(0.5 * (mesh_.position(e.a) + mesh_.position(e.b)))
+                          : mesh_.position(merge.kept);
   }
 
   EditableMesh& mesh_;

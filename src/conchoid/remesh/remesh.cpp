@@ -357,6 +357,15 @@ double one_way_distance(const TriMesh& from, const ClosestPointTree& to) {
 
 }  // namespace
 
+TriangleCountError::TriangleCountError(int asked, std::size_t allowed)
+    : ComputationError("remesh: " + std::to_string(asked) + " triangles cannot be met, the shape allows " +
+                       std::to_string(allowed) + "; ask for about as many, or for more"),
+      allowed_(allowed) {}
+
+bool remesh_meets(int target_triangles, std::size_t triangles) {
+  return std::abs(static_cast<double>(triangles) / target_triangles - 1) <= 0.1;
+}
+
 double sampled_hausdorff_distance(const TriMesh& a, const TriMesh& b) {
   return std::max(one_way_distance(a, ClosestPointTree(b)), one_way_distance(b, ClosestPointTree(a)));
 }
@@ -387,10 +396,8 @@ TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettin
   remesher.balance_volume();
 
   TriMesh result = remesher.mesh().compact();
-  if (std::abs(static_cast<double>(result.triangle_count()) / target_triangles - 1) > 0.1)
-    throw ComputationError("remesh: " + std::to_string(target_triangles) +
-                           " triangles cannot be met, the shape allows " +
-                           std::to_string(result.triangle_count()) + "; ask for about as many, or for more");
+  if (!remesh_meets(target_triangles, result.triangle_count()))
+    throw TriangleCountError(target_triangles, result.triangle_count());
   if (report) {
     report->triangles = static_cast<int>(result.triangle_count());
     report->smallest_angle = 180;

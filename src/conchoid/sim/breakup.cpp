@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <exception>
 #include <optional>
+#include <utility>
 
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/core/error.hpp"
@@ -31,7 +33,8 @@ constexpr std::array<WayToCut, 6> kWaysToCut{{{0, kMendedVolume},
                                               {0.05, kMendedVolume},
                                               {-0.05, kMendedVolume},
                                               {0, kRoughlyMendedVolume}}};
-constexpr double kSmallestVolume = 8;  // × r̄³: two edges of the cracks each way
+constexpr double kSmallestVolume = 8;        // × r̄³: two edges of the cracks each way
+constexpr std::size_t kReadySideBySide = 2;  // pieces; more would be in vain where a run ends before they are
 
 // Whether a crack starts or grows in a frame whose openings are known.
 bool moves(const Fracture& fracture) {
@@ -118,6 +121,21 @@ struct Waiting {
   Fragment fragment;
   std::shared_ptr<const PreparedBody> body;
   std::shared_ptr<const Scene> scene;
+  // as a body of its own, or why it is none; neither: not made ready yet
+  std::optional<PieceScene> own = std::nullopt;
+  std::exception_ptr refused = nullptr;
+
+  bool ready() const { return own || refused; }
+  void make_ready() {
+    try {
+      mend_fragment(fragment);
+      own = scene_of_piece(*scene, *body, fragment);
+    } catch (const InputError&) {
+      refused = std::current_exception();
+    } catch (const ComputationError&) {
+      refused = std::current_exception();
+    }
+  }
 };
 
 }  // namespace
@@ -173,6 +191,8 @@ struct Breakup::State {
   void begin(std::shared_ptr<const Scene> of_body, std::shared_ptr<const PreparedBody> prepared);
   bool begin_next();
   bool begin_piece(Waiting& piece);
+  bool may_begin(const Waiting& piece) const;
+  void make_ready();
   bool may_break(const Fragment& piece) const;
   void wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most);
   void end_body(StopReason reason);
@@ -210,9 +230,21 @@ void Breakup::State::wait(const std::vector<Fragment>& cut, std::size_t first_id
     if (may_break(cut[i])) waiting.push_back({first_id + i, cut[i], body, scene});
 }
 
+bool Breakup::State::may_begin(const Waiting& piece) const {
+  return (!pieces || few_enough()) && (cracks_left() > 0 || !piece.fragment.unfinished.sheets.empty());
+}
+
+// The first that wait, side by side: most of that works on one thread.
+void Breakup::State::make_ready() {
+  std::vector<Waiting*> next;
+  for (Waiting& piece : waiting)
+    if (next.size() < kReadySideBySide && !piece.ready() && may_begin(piece)) next.push_back(&piece);
+  parallel_for(next.size(), 1, [&](std::size_t i, std::size_t) { next[i]->make_ready(); });
+}
+
 bool Breakup::State::begin_piece(Waiting& piece) {
-  mend_fragment(piece.fragment);
-  PieceScene own = scene_of_piece(*piece.scene, *piece.body, piece.fragment);
+  if (piece.refused) std::rethrow_exception(piece.refused);
+  PieceScene own = *std::exchange(piece.own, std::nullopt);
   if (!is_loaded(own.scene)) return false;
   RunSpec& its_run = own.scene.run;
   its_run.max_cracks = static_cast<int>(cracks_left());
@@ -230,10 +262,10 @@ bool Breakup::State::begin_piece(Waiting& piece) {
 // The next piece that can break; false if there is none.
 bool Breakup::State::begin_next() {
   while (!waiting.empty()) {
+    const bool may = may_begin(waiting.front());
+    if (may && !waiting.front().ready()) make_ready();
     Waiting next = std::move(waiting.front());
     waiting.pop_front();
-    const bool may =
-        (!pieces || few_enough()) && (cracks_left() > 0 || !next.fragment.unfinished.sheets.empty());
     try {
       if (may && begin_piece(next)) return true;
     } catch (const InputError& error) {

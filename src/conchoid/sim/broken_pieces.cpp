@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/mended_fragment.hpp"
@@ -52,11 +53,13 @@ void remove_slits(TriMesh& crack, const Fragment& piece) {
   const TriMesh own = slits_of(piece);
   if (own.corners.empty()) return;
   const ClosestPointTree slits(own), surface(piece.unfinished.solid);
-  std::vector<TriId> kept;
-  for (std::size_t t = 0; t < crack.triangle_count(); ++t) {
+  const auto keep = parallel_values(crack.triangle_count(), 256, [&](std::size_t t) -> char {
     const Vec3 x = centroid(crack, TriId(t));
-    if (slits.closest(x).squared_distance >= surface.closest(x).squared_distance) kept.emplace_back(t);
-  }
+    return slits.closest(x).squared_distance >= surface.closest(x).squared_distance;
+  });
+  std::vector<TriId> kept;
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) kept.emplace_back(t);
   crack = submesh(crack, kept);
 }
 

@@ -18,12 +18,17 @@ constexpr int kMostElements = 200000, kFewFaces = 20;    // that remesh() takes
 
 TriMesh elements_of(const TriMesh& piece, double element_area) {
   const double wanted = std::max<double>(kFewestElements, surface_area(piece) / element_area);
-  for (std::size_t i = 0;; ++i)
+  const auto target = [&](std::size_t i) {
+    return static_cast<int>(std::clamp<double>(std::round(kTargets[i] * wanted), kFewFaces, kMostElements));
+  };
+  for (std::size_t i = 0;;)
     try {
-      return remesh(piece, static_cast<int>(std::clamp<double>(std::round(kTargets[i] * wanted), kFewFaces,
-                                                               kMostElements)));
-    } catch (const ComputationError&) {
-      if (i + 1 == kTargets.size()) throw;
+      return remesh(piece, target(i));
+    } catch (const TriangleCountError& error) {
+      // The next, but none that is as far from what the shape allows.
+      do
+        if (++i == kTargets.size()) throw;
+      while (!remesh_meets(target(i), error.allowed()) && target(i) < static_cast<int>(error.allowed()));
     }
 }
 
