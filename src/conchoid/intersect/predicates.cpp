@@ -179,7 +179,7 @@ Leading leading_value(const PerturbedPoint& a, const PerturbedPoint& b, const Pe
 }
 
 /// Corners in ascending id, so that every caller gets the same bits.
-std::array<const PerturbedPoint*, 3> sorted(std::array<const PerturbedPoint*, 3> t) {
+PerturbedTriangle sorted(PerturbedTriangle t) {
   std::sort(t.begin(), t.end(), [](const auto* x, const auto* y) { return x->id < y->id; });
   return t;
 }
@@ -293,8 +293,12 @@ Vec3 Crossing::point(const PerturbedPoint& p, const PerturbedPoint& q) const {
   return to_p <= to_q ? Vec3(p.x + to_p * (q.x - p.x)) : Vec3(q.x + to_q * (p.x - q.x));
 }
 
-Crossing crossing(const PerturbedPoint& p, const PerturbedPoint& q,
-                  const std::array<const PerturbedPoint*, 3>& triangle) {
+bool pierces(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& t) {
+  const int s = orientation(p, q, *t[0], *t[1]);
+  return s == orientation(p, q, *t[1], *t[2]) && s == orientation(p, q, *t[2], *t[0]);
+}
+
+Crossing crossing(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& triangle) {
   const auto t = sorted(triangle);
   const Leading at_p = leading_value(*t[0], *t[1], *t[2], p), at_q = leading_value(*t[0], *t[1], *t[2], q);
   if (at_p.exponent > at_q.exponent) return {0.0, 1.0};
@@ -303,9 +307,8 @@ Crossing crossing(const PerturbedPoint& p, const PerturbedPoint& q,
   return {hp / (hp + hq), hq / (hp + hq)};
 }
 
-bool crosses_before(const PerturbedPoint& p, const PerturbedPoint& q,
-                    const std::array<const PerturbedPoint*, 3>& first,
-                    const std::array<const PerturbedPoint*, 3>& second) {
+bool crosses_before(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& first,
+                    const PerturbedTriangle& second) {
   const Crossing f = crossing(p, q, first), s = crossing(p, q, second);
   const double left = f.to_p * s.to_q, right = s.to_p * f.to_q;
   if (std::abs(left - right) > 1e-13 * std::max(left, right)) return left < right;

@@ -26,6 +26,9 @@ struct PerturbedPoint {
   std::uint32_t id = 0;
 };
 
+/// The corners of one.
+using PerturbedTriangle = std::array<const PerturbedPoint*, 3>;
+
 enum class Role { surface, sheet };
 
 /// The nodes of a mesh with their displacements; ids count from `first_id` (different for both meshes).
@@ -36,19 +39,20 @@ std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std
 int orientation(const PerturbedPoint& a, const PerturbedPoint& b, const PerturbedPoint& c,
                 const PerturbedPoint& d);
 
+/// Whether p → q, which crosses the plane of the triangle, does so inside of it. Exact.
+bool pierces(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& triangle);
+
 /// Where the segment p → q crosses the plane of the triangle.
 struct Crossing {
   double to_p, to_q;  ///< distances to p and q as shares of |pq|, ≥ 0, sum 1; accurate relative to themselves
   Vec3 point(const PerturbedPoint& p, const PerturbedPoint& q) const;
 };
 /// Requires p and q on different sides of the triangle's plane (`orientation` differs).
-Crossing crossing(const PerturbedPoint& p, const PerturbedPoint& q,
-                  const std::array<const PerturbedPoint*, 3>& triangle);
+Crossing crossing(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& triangle);
 
 /// Whether p → q crosses the plane of `first` before the plane of `second` for ε → 0. Exact. Both must be
 /// crossed.
-bool crosses_before(const PerturbedPoint& p, const PerturbedPoint& q,
-                    const std::array<const PerturbedPoint*, 3>& first,
-                    const std::array<const PerturbedPoint*, 3>& second);
+bool crosses_before(const PerturbedPoint& p, const PerturbedPoint& q, const PerturbedTriangle& first,
+                    const PerturbedTriangle& second);
 
 }  // namespace conchoid
