@@ -3,11 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <deque>
-#include <exception>
 #include <optional>
-#include <utility>
 
 #include "conchoid/bem/row_store.hpp"
 #include "conchoid/core/error.hpp"
@@ -15,24 +12,14 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/sim/broken_pieces.hpp"
 #include "conchoid/sim/crack_sites.hpp"
+#include "conchoid/sim/cut_piece.hpp"
 #include "conchoid/sim/mended_fragment.hpp"
-#include "conchoid/sim/piece_scene.hpp"
+#include "conchoid/sim/waiting_piece.hpp"
 #include "conchoid/surface/separation.hpp"
 
 namespace conchoid {
 namespace {
 
-// How a piece that broke further is cut, tried in turn.
-struct WayToCut {
-  double shift;        // of the cracks, along their mean normal, × edge of the surface
-  double most_mended;  // × volume of a part: what mending it may take or add
-};
-constexpr std::array<WayToCut, 6> kWaysToCut{{{0, kMendedVolume},
-                                              {0.02, kMendedVolume},
-                                              {-0.02, kMendedVolume},
-                                              {0.05, kMendedVolume},
-                                              {-0.05, kMendedVolume},
-                                              {0, kRoughlyMendedVolume}}};
 constexpr double kSmallestVolume = 8;        // × r̄³: two edges of the cracks each way
 constexpr std::size_t kReadySideBySide = 2;  // pieces; more would be in vain where a run ends before they are
 
@@ -46,26 +33,6 @@ bool moves(const Fracture& fracture) {
   return fracture.new_cracks() > 0 ||
          (fracture.solved() && fracture.new_cracks() < allowed &&
           !find_crack_sites(fracture.body(), fracture.crack(), fracture.solution(), 1).empty());
-}
-
-// The pieces, mended; none where not all of them are solids.
-std::optional<Pieces> solid_pieces(const Fracture& fracture, const OutputSpec& output, const WayToCut& way) {
-  Vec3 normal = Vec3::Zero();
-  const TriMesh& sheet = fracture.crack().sheet.mesh;
-  for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
-    normal += area_vector(sheet, TriId(t));
-  const double shift = way.shift * fracture.body().surface_edge;
-  Pieces cut = cut_into_pieces(fracture, output, shift * normal.normalized());
-  std::vector<char> solid(cut.fragments.size());
-  parallel_for(solid.size(), 1, [&](std::size_t i, std::size_t) {
-    Fragment& f = cut.fragments[i];
-    solid[i] = is_solid(f);
-    if (solid[i]) return;
-    mend_fragment(f, way.most_mended);
-    solid[i] = is_solid(f);
-  });
-  if (std::find(solid.begin(), solid.end(), 0) != solid.end()) return std::nullopt;
-  return cut;
 }
 
 // Hands on what a body does; of a piece nothing before the first frame in which it moves.
@@ -115,29 +82,6 @@ class NamedRows : public RowStore {
   }
 };
 
-// A piece that may break, as it was cut from its body.
-struct Waiting {
-  std::size_t id;  // in BrokenPieces
-  Fragment fragment;
-  std::shared_ptr<const PreparedBody> body;
-  std::shared_ptr<const Scene> scene;
-  // as a body of its own, or why it is none; neither: not made ready yet
-  std::optional<PieceScene> own = std::nullopt;
-  std::exception_ptr refused = nullptr;
-
-  bool ready() const { return own || refused; }
-  void make_ready() {
-    try {
-      mend_fragment(fragment);
-      own = scene_of_piece(*scene, *body, fragment);
-    } catch (const InputError&) {
-      refused = std::current_exception();
-    } catch (const ComputationError&) {
-      refused = std::current_exception();
-    }
-  }
-};
-
 }  // namespace
 
 struct Breakup::State {
@@ -159,8 +103,8 @@ struct Breakup::State {
   Relay relay;
   NamedRows rows;
   std::optional<BrokenPieces> pieces;
-  std::deque<Waiting> waiting;
-  std::optional<Waiting> at_work;  // the piece that breaks
+  std::deque<WaitingPiece> waiting;
+  std::optional<WaitingPiece> at_work;  // the piece that breaks
   std::vector<std::string> warnings;
   StopReason outcome = StopReason::frame_limit;  // if nothing goes on
   std::optional<StopReason> stop;
@@ -190,8 +134,8 @@ struct Breakup::State {
 
   void begin(std::shared_ptr<const Scene> of_body, std::shared_ptr<const PreparedBody> prepared);
   bool begin_next();
-  bool begin_piece(Waiting& piece);
-  bool may_begin(const Waiting& piece) const;
+  bool begin_piece(WaitingPiece& piece);
+  bool may_begin(const WaitingPiece& piece) const;
   void make_ready();
   bool may_break(const Fragment& piece) const;
   void wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most);
@@ -227,24 +171,23 @@ bool Breakup::State::may_break(const Fragment& piece) const {
 
 void Breakup::State::wait(const std::vector<Fragment>& cut, std::size_t first_id, std::size_t most) {
   for (std::size_t i = 0; i < std::min(most, cut.size()); ++i)
-    if (may_break(cut[i])) waiting.push_back({first_id + i, cut[i], body, scene});
+    if (may_break(cut[i])) waiting.emplace_back(first_id + i, cut[i], body, scene);
 }
 
-bool Breakup::State::may_begin(const Waiting& piece) const {
+bool Breakup::State::may_begin(const WaitingPiece& piece) const {
   return (!pieces || few_enough()) && (cracks_left() > 0 || !piece.fragment.unfinished.sheets.empty());
 }
 
 // The first that wait, side by side: most of that works on one thread.
 void Breakup::State::make_ready() {
-  std::vector<Waiting*> next;
-  for (Waiting& piece : waiting)
+  std::vector<WaitingPiece*> next;
+  for (WaitingPiece& piece : waiting)
     if (next.size() < kReadySideBySide && !piece.ready() && may_begin(piece)) next.push_back(&piece);
   parallel_for(next.size(), 1, [&](std::size_t i, std::size_t) { next[i]->make_ready(); });
 }
 
-bool Breakup::State::begin_piece(Waiting& piece) {
-  if (piece.refused) std::rethrow_exception(piece.refused);
-  PieceScene own = *std::exchange(piece.own, std::nullopt);
+bool Breakup::State::begin_piece(WaitingPiece& piece) {
+  PieceScene own = piece.take();
   if (!is_loaded(own.scene)) return false;
   RunSpec& its_run = own.scene.run;
   its_run.max_cracks = static_cast<int>(cracks_left());
@@ -264,7 +207,7 @@ bool Breakup::State::begin_next() {
   while (!waiting.empty()) {
     const bool may = may_begin(waiting.front());
     if (may && !waiting.front().ready()) make_ready();
-    Waiting next = std::move(waiting.front());
+    WaitingPiece next = std::move(waiting.front());
     waiting.pop_front();
     try {
       if (may && begin_piece(next)) return true;
@@ -328,27 +271,21 @@ void Breakup::State::end_first(StopReason reason) {
 void Breakup::State::end_piece() {
   if (interrupted() || !(grown() || fracture->parted()))
     return;  // a last ligament may break before anything grows
-  std::optional<Pieces> clean;
-  for (const WayToCut& way : kWaysToCut) {
-    clean = solid_pieces(*fracture, output, way);
-    if (clean && fracture->parted() && clean->fragments.size() < 2) clean.reset();
-    if (!clean) continue;
-    if (way.most_mended > kMendedVolume)
-      warnings.push_back(
-          fmt::format("after frame {}: a part of a piece that broke further folds over itself; it is mended "
-                      "there, at the cost of up to {:g} of its volume",
-                      fracture->frame(), way.most_mended));
-    break;
-  }
-  if (!clean) {
+  std::optional<SolidParts> cut = cut_piece(*fracture, output);
+  if (!cut) {
     warnings.push_back(
         fmt::format("after frame {}: what broke further in a piece could not be cut out of it cleanly; the "
                     "piece is left as it was before, and its cracks are seen in the frames only",
                     fracture->frame()));
     return;
   }
-  const std::vector<Fragment> raw = clean->fragments;
-  const std::size_t first = pieces->replace(*id, *std::move(clean));
+  if (cut->most_mended > kMendedVolume)
+    warnings.push_back(
+        fmt::format("after frame {}: a part of a piece that broke further folds over itself; it is mended "
+                    "there, at the cost of up to {:g} of its volume",
+                    fracture->frame(), cut->most_mended));
+  const std::vector<Fragment> raw = cut->parts.fragments;
+  const std::size_t first = pieces->replace(*id, std::move(cut->parts));
   if (raw.size() > 1) wait(raw, first, raw.size());
 }
 
