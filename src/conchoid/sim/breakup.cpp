@@ -249,7 +249,16 @@ void Breakup::State::end_without_chips(StopReason reason) {
 void Breakup::State::end_first(StopReason reason) {
   outcome = reason;
   if (body->infinite() || reason == StopReason::interrupted) return;  // then there is no time to cut it
-  Pieces cut = cut_into_pieces(*fracture, output);
+  Pieces cut;
+  try {
+    cut = cut_into_pieces(*fracture, output);
+  } catch (const ComputationError& error) {
+    warnings.push_back(
+        fmt::format("the body cannot be cut into pieces: {}; crack.ply holds the crack. Another "
+                    "resolution.surface may help",
+                    error.what()));
+    return;
+  }
   const std::size_t count = cut.fragments.size();
   const bool goes_on = run.after_separation == AfterSeparation::go_on;
   if (reason == StopReason::separated && count == 1) {

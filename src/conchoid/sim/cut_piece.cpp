@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/sim/mended_fragment.hpp"
 
@@ -22,8 +23,9 @@ constexpr std::array<WayToCut, 6> kWaysToCut{{{0, kMendedVolume},
                                               {-0.05, kMendedVolume},
                                               {0, kRoughlyMendedVolume}}};
 
-// The parts, mended; none where not all of them are solids.
-std::optional<Pieces> solid_parts(const Fracture& fracture, const OutputSpec& output, const WayToCut& way) {
+// The parts, mended; none where not all of them are solids, or where it cannot be cut so.
+std::optional<Pieces> solid_parts(const Fracture& fracture, const OutputSpec& output,
+                                  const WayToCut& way) try {
   Vec3 normal = Vec3::Zero();
   const TriMesh& sheet = fracture.crack().sheet.mesh;
   for (std::size_t t = 0; t < sheet.triangle_count(); ++t)
@@ -40,6 +42,8 @@ std::optional<Pieces> solid_parts(const Fracture& fracture, const OutputSpec& ou
   });
   if (std::find(solid.begin(), solid.end(), 0) != solid.end()) return std::nullopt;
   return cut;
+} catch (const ComputationError&) {
+  return std::nullopt;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
@@ -100,18 +102,25 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
   out.warnings = std::move(cut.warnings);
   out.crack = join({cut.inside ? *cut.inside : trimmed_crack(body, cut.sheets), cut.ligament});
   out.contacts = fragment_contacts(out.fragments);
-  parallel_for(out.fragments.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Fragment& f = out.fragments[i];
-      keep_solid(f);
-      if (cut.stands_for > 0) keep_whole(f);
-      f.unfinished.sheets = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge, cut.stands_for);
-      if (cut.opened.empty())
-        open_slits(f, slit_width(body));
-      else
-        f.mesh.positions = std::move(cut.opened[i]);
-    }
+  const auto unclear = parallel_values(out.fragments.size(), 1, [&](std::size_t i) {
+    Fragment& f = out.fragments[i];
+    keep_solid(f);
+    if (cut.stands_for > 0) keep_whole(f);
+    GoingOn going_on = unfinished_cracks(fracture.crack().sheet, f, body.crack_edge, cut.stands_for);
+    f.unfinished.sheets = std::move(going_on.sheets);
+    if (cut.opened.empty())
+      open_slits(f, slit_width(body));
+    else
+      f.mesh.positions = std::move(cut.opened[i]);
+    return going_on.unclear;
   });
+  if (const int count = std::accumulate(unclear.begin(), unclear.end(), 0); count > 0)
+    out.warnings.push_back((count == 1
+                                ? "a crack that ends in a piece stays as it is"
+                                : fmt::format("{} cracks that end in pieces stay as they are", count)) +
+                           ": what goes on in the piece cannot be told, as its surface touches itself along "
+                           "an edge there; another "
+                           "resolution.surface may part it");
   transfer_attributes(out.fragments, body.detailed, body.attributes, attribute_settings(output, body));
   for (Fragment& f : out.fragments)
     move_fragment(f, body.origin, body.detailed, body.scene_positions);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/front/front.hpp"
 #include "conchoid/intersect/corefine.hpp"
@@ -135,17 +136,21 @@ bool goes_on_inside(const TriMesh& solid, const TriMesh& faces, const TriMesh& s
 
 }  // namespace
 
-std::vector<TriMesh> unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge,
-                                       double stands_for) {
+GoingOn unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge,
+                          double stands_for) {
   if (piece.unfinished.solid.corners.empty()) return {};  // no slit: nothing ends in it
   const TriMesh& solid = piece.unfinished.solid;
   const TriMesh faces = cut_faces(piece, solid);
   const TriMesh kept = split_fans(
       embedded_part(SheetInPiece(sheet, piece, solid, crack_edge, stands_for).part()), kApart * crack_edge);
-  std::vector<TriMesh> out;
+  GoingOn out;
   for (const SurfacePart& part : surface_parts(kept)) {
     TriMesh one = submesh(kept, part.triangles);
-    if (goes_on_inside(solid, faces, one, crack_edge)) out.push_back(std::move(one));
+    try {
+      if (goes_on_inside(solid, faces, one, crack_edge)) out.sheets.push_back(std::move(one));
+    } catch (const ComputationError&) {
+      ++out.unclear;
+    }
   }
   return out;
 }
