@@ -262,7 +262,7 @@ std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std
 
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, const std::vector<TriId>& faces,
                                                         std::size_t limit) {
-  constexpr std::size_t kGrain = 256, kGrainsAtOnce = 64;
+  constexpr std::size_t kGrain = 256, kFirstGrains = 2;
   std::vector<std::pair<TriId, TriId>> found;
   if (faces.empty()) return found;
   const Neighbourhood around(mesh, faces);
@@ -271,9 +271,12 @@ std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, con
     asked[t.index()] = 1;
   const bool all = faces.size() == asked.size();
   const std::size_t n = faces.size();
-  // Of all triangles the first pairs are those of the first triangles; of some, all have to be known first.
-  for (std::size_t begin = 0; begin < n && (found.size() < limit || !all); begin += kGrain * kGrainsAtOnce) {
-    const std::size_t count = std::min(n - begin, kGrain * kGrainsAtOnce);
+  // Of all triangles the first pairs are those of the first triangles, so that few of a crumpled sheet are looked at; of
+  // some, all have to be known first.
+  std::size_t begin = 0, count = 0;
+  for (std::size_t grains = kFirstGrains; begin < n && (found.size() < limit || !all);
+       begin += count, grains *= 2) {
+    count = std::min(n - begin, kGrain * grains);
     std::vector<std::vector<std::pair<TriId, TriId>>> of_grain((count + kGrain - 1) / kGrain);
     parallel_for(count, kGrain, [&](std::size_t from, std::size_t to) {
       auto& own = of_grain[from / kGrain];
