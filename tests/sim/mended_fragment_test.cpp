@@ -62,6 +62,25 @@ TEST(MendedFragment, AFoldIsTakenOutAndTheRestStays) {
   EXPECT_NEAR(fracture, 1, 1e-5);
 }
 
+// A tube that came apart had such a sliver at the rim of a piece, whose file no scene could use.
+TEST(MendedFragment, ASliverThatIsFoldedIsFoundAtItsNodes) {
+  Fragment f = folded_box();
+  mend_folded_slivers(f);
+  EXPECT_TRUE(is_solid(f));
+}
+
+TEST(MendedFragment, SliversThatLieFlatStay) {
+  Fragment f = folded_box();
+  Vec3& middle = f.mesh.positions[NodeId(f.mesh.node_count() - 1)];
+  const Vec3 inside = f.mesh.positions[f.mesh.corners[TriId(f.mesh.triangle_count() - 1)][0]];  // x[2]
+  middle += 3e-7 * (inside - middle).normalized();
+  ASSERT_TRUE(is_solid(f));
+  const TriMesh before = f.mesh;
+  mend_folded_slivers(f);
+  EXPECT_EQ(f.mesh.positions, before.positions);
+  EXPECT_EQ(f.mesh.corners, before.corners);
+}
+
 TEST(MendedFragment, ASolidIsLeftAsItIs) {
   Fragment f;
   f.mesh = box_mesh(Vec3::Constant(1), 2, 2, 2);

@@ -6,6 +6,8 @@
 #include "conchoid/intersect/self_intersection.hpp"
 #include "conchoid/mesh/carry_attributes.hpp"
 #include "conchoid/mesh/closest_point.hpp"
+#include "conchoid/mesh/id_lists.hpp"
+#include "conchoid/remesh/editable_mesh.hpp"
 #include "conchoid/remesh/mend.hpp"
 #include "conchoid/remesh/patch_intersections.hpp"
 #include "conchoid/remesh/tidy.hpp"
@@ -14,11 +16,24 @@
 namespace conchoid {
 namespace {
 
-constexpr int kMostRings = 3;   // of triangles around a fold
-constexpr int kMostPasses = 4;  // where what is made anew folds once more
+constexpr double kSliver = 0.01;  // height over longest edge
+constexpr int kMostRings = 3;     // of triangles around a fold
+constexpr int kMostPasses = 4;    // where what is made anew folds once more
 
 bool is_solid(const TriMesh& mesh) {
   return is_watertight(mesh) && self_intersections(mesh, 1).empty();
+}
+
+bool has_folded_sliver(const TriMesh& mesh) {
+  const NodeLists<TriId> around = triangles_at_nodes(mesh);
+  for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
+    const TriId sliver(i);
+    if (flatness(mesh.triangle(sliver)) > kSliver) continue;
+    for (const NodeId n : mesh.corners[sliver])
+      for (const TriId t : around[n])
+        if (t != sliver && triangles_intersect(mesh, sliver, t)) return true;
+  }
+  return false;
 }
 
 // Per triangle the one of another mesh that its middle is nearest to.
@@ -85,6 +100,10 @@ void mend_fragment(Fragment& f, double most) {
   const bool surface = mend_surface(f, most), solid = mend_solid(f.unfinished, most);
   if ((surface || solid) && !f.unfinished.solid.corners.empty())
     f.unfinished.solid_face = nearest_faces(f.unfinished.solid, f.mesh);
+}
+
+void mend_folded_slivers(Fragment& f) {
+  if (has_folded_sliver(f.mesh)) mend_fragment(f);
 }
 
 }  // namespace conchoid

@@ -16,4 +16,8 @@ bool is_solid(const Fragment& fragment);
 /// that. @param most  × volume
 void mend_fragment(Fragment& fragment, double most = kMendedVolume);
 
+/// The same where a sliver, as cuts leave them, passes through a triangle at one of its nodes, folded over by round-off. Nothing
+/// else is looked at.
+void mend_folded_slivers(Fragment& fragment);
+
 }  // namespace conchoid

@@ -13,6 +13,7 @@
 #include "conchoid/intersect/sheet_inside.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/body_cut.hpp"
+#include "conchoid/sim/mended_fragment.hpp"
 #include "conchoid/sim/unfinished_cracks.hpp"
 #include "conchoid/surface/fragment_attributes.hpp"
 #include "conchoid/surface/move_fragment.hpp"
@@ -112,6 +113,7 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
       open_slits(f, slit_width(body));
     else
       f.mesh.positions = std::move(cut.opened[i]);
+    mend_folded_slivers(f);
     return going_on.unclear;
   });
   if (const int count = std::accumulate(unclear.begin(), unclear.end(), 0); count > 0)
