@@ -32,8 +32,9 @@ class Corefinement {
 
   /// What of the sheet lies outside is left out. Once.
   CutComplex keep_inside() {
+    const std::vector<MouthSide> mouth = mouth_.sides();
     const std::vector<bool> inside =
-        inside_pieces(sheet_pieces_, mouth_.sides(), [&](NodeId n) { return ray_says_inside(n); });
+        inside_pieces(sheet_pieces_, mouth, [&](NodeId n) { return ray_says_inside(n); });
     const std::size_t ns = surface_.node_count();
     std::vector<bool> used(mouth_.positions().size(), false);
     for (std::size_t i = 0; i < ns; ++i)
@@ -63,7 +64,7 @@ class Corefinement {
       result_.sheet.push_back(c);
       result_.sheet_parent.push_back(sheet_parents_[p]);
     }
-    for (const auto& [edge, left] : mouth_.sides())
+    for (const auto& [edge, left] : mouth)
       result_.mouth.emplace_back(final_id[edge.a.index()], final_id[edge.b.index()]);
     std::sort(result_.mouth.begin(), result_.mouth.end());
     set_supports(final_id);
@@ -92,14 +93,10 @@ class Corefinement {
   IdVector<NodeId, SurfaceSupport> supports() const { return supports_; }
 
  private:
-  const TriMesh& mesh_of(MouthNode::Kind kind) const {
-    return kind == MouthNode::surface_edge ? surface_ : sheet_;
-  }
-
   /// Pieces of one cut triangle, oriented like it; in canonical order and rotation, the same for a reflected
   /// mesh.
   std::vector<Corners> cut_triangle(MouthNode::Kind kind, TriId t) const {
-    const Corners& corners = mesh_of(kind).corners[t];
+    const Corners& corners = mouth_.mesh_of(kind).corners[t];
     Corners ascending = corners;
     std::sort(ascending.begin(), ascending.end());
     const bool even =
@@ -120,7 +117,7 @@ class Corefinement {
 
   /// Of all triangles of a kind, what cut_triangle says; nothing of those that are whole.
   std::vector<std::vector<Corners>> cut_triangles(MouthNode::Kind kind) const {
-    return parallel_values(mesh_of(kind).triangle_count(), kOfTask, [&](std::size_t t) {
+    return parallel_values(mouth_.mesh_of(kind).triangle_count(), kOfTask, [&](std::size_t t) {
       return mouth_.cuts(kind, TriId(t)) ? cut_triangle(kind, TriId(t)) : std::vector<Corners>();
     });
   }

@@ -105,11 +105,12 @@ MouthCurve::Intersection MouthCurve::intersect(TriId t, TriId s) const {
 PerturbedTriangle MouthCurve::edge_triangle(const MouthNode& at) const {
   return at.kind == Kind::sheet_edge ? surface_triangle(at.triangle) : sheet_triangle(at.triangle);
 }
+
 const std::vector<PerturbedPoint>& MouthCurve::edge_points(const MouthNode& at) const {
   return at.kind == Kind::sheet_edge ? sheet_points_ : surface_points_;
 }
 
-// And the numbers of all.
+// The nodes of the mouth, and all in one numbering.
 void MouthCurve::make_nodes() {
   for (const Segment& s : segments_) {
     nodes_.push_back(s.from);
@@ -205,9 +206,9 @@ TriangleCut MouthCurve::triangle_cut(Kind kind, TriId t) const {
 // to the next, across their common edge: the dihedral angle there decides.
 int MouthCurve::turn(Kind kind, TriId t, NodeId before, NodeId at, NodeId after) const {
   const bool of_surface = kind == Kind::surface_edge;
-  const std::size_t first_key = node(0).index();
-  if (at.index() < first_key || at.index() >= first_key + nodes_.size()) return 0;
-  const Edge edge = nodes_[at.index() - first_key].edge;
+  const std::size_t first_node = node(0).index();
+  if (at.index() < first_node || at.index() >= first_node + nodes_.size()) return 0;
+  const Edge edge = nodes_[at.index() - first_node].edge;
   const auto other_triangle = [&](NodeId end) {
     for (const std::size_t i : segments_in(kind)[t])
       if (segments_[i].has_step(Edge(end, at))) return of_surface ? segments_[i].sheet : segments_[i].surface;

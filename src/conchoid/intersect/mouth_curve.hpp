@@ -32,6 +32,7 @@ class MouthCurve {
   /// Both meshes must outlive it.
   MouthCurve(const TriMesh& surface, const TriMesh& sheet);
 
+  const TriMesh& mesh_of(Kind kind) const { return kind == Kind::surface_edge ? surface_ : sheet_; }
   PerturbedTriangle surface_triangle(TriId t) const;
   PerturbedTriangle sheet_triangle(TriId s) const;
   const PerturbedPoint& sheet_point(NodeId n) const { return sheet_points_[n.index()]; }
@@ -72,7 +73,6 @@ class MouthCurve {
   void join_crossings(Kind kind);
   void join(Segment& s, Segment& t);
 
-  const TriMesh& mesh_of(Kind kind) const { return kind == Kind::surface_edge ? surface_ : sheet_; }
   const SegmentsOfTriangles& segments_in(Kind kind) const {
     return kind == Kind::surface_edge ? on_surface_ : on_sheet_;
   }

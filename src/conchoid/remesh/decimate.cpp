@@ -153,8 +153,8 @@ class Decimation {
     return both;
   }
 
-  Vec3 place(const Edge& e, const FeatureLines::Merge& merge, const Quadric& sum) const {
-    return merge.may_move ? sum.minimum(0.5 * (mesh_.position(e.a) + mesh_.position(e.b)))
+  Vec3 place(const Edge& e, const FeatureLines::Merge& merge, const Quadric& both) const {
+    return merge.may_move ? both.minimum(0.5 * (mesh_.position(e.a) + mesh_.position(e.b)))
                           : mesh_.position(merge.kept);
   }
 

@@ -117,12 +117,11 @@ Pieces cut_into_pieces(const Fracture& fracture, const OutputSpec& output, const
     return going_on.unclear;
   });
   if (const int count = std::accumulate(unclear.begin(), unclear.end(), 0); count > 0)
-    out.warnings.push_back((count == 1
-                                ? "a crack that ends in a piece stays as it is"
-                                : fmt::format("{} cracks that end in pieces stay as they are", count)) +
-                           ": what goes on in the piece cannot be told, as its surface touches itself along "
-                           "an edge there; another "
-                           "resolution.surface may part it");
+    out.warnings.push_back(fmt::format(
+        "{}: what goes on in the piece cannot be told, as its surface touches itself along an edge there; "
+        "another resolution.surface may part it",
+        count == 1 ? "a crack that ends in a piece stays as it is"
+                   : fmt::format("{} cracks that end in pieces stay as they are", count)));
   transfer_attributes(out.fragments, body.detailed, body.attributes, attribute_settings(output, body));
   for (Fragment& f : out.fragments)
     move_fragment(f, body.origin, body.detailed, body.scene_positions);

@@ -7,6 +7,12 @@
 
 namespace conchoid {
 
+/// Cracks that go on in a piece.
+struct GoingOn {
+  std::vector<TriMesh> sheets;
+  int unclear = 0;  ///< others of which it cannot be told
+};
+
 /// What of the boundary element cracks goes on inside a piece: the parts of the sheet that lie in it, not
 /// along the faces that cut it free, have an area of r̄² or more there, and a front inside that lies somewhere deeper than r̄ below
 /// those faces (nearer ones are shavings of what has come apart) and r̄/2 below any (whose K no element resolves). They stick out of the piece
@@ -15,10 +21,6 @@ namespace conchoid {
 /// out, and counted.
 /// @param crack_edge  r̄ [m]
 /// @param stands_for  [m], so near to those faces all of the sheet is along them, whatever its normal (BodyCut)
-struct GoingOn {
-  std::vector<TriMesh> sheets;
-  int unclear = 0;
-};
 GoingOn unfinished_cracks(const CrackSheet& sheet, const Fragment& piece, double crack_edge,
                           double stands_for = 0);
 
