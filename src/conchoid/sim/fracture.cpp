@@ -9,32 +9,25 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
-#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/stopwatch.hpp"
 #include "conchoid/crack/closing/advance_fronts.hpp"
-#include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/crack/law/hoop_stress_law.hpp"
-#include "conchoid/intersect/unfold.hpp"
-#include "conchoid/mesh/surface_parts.hpp"
 #include "conchoid/sim/clamp_edges.hpp"
 #include "conchoid/sim/crack_sites.hpp"
 #include "conchoid/sim/ligament_rule.hpp"
-#include "conchoid/sim/nearly_through.hpp"
+#include "conchoid/sim/parting.hpp"
 #include "conchoid/sim/path_turn.hpp"
 #include "conchoid/sim/resolution_warnings.hpp"
 #include "conchoid/sim/resolved_points.hpp"
-#include "conchoid/surface/separation.hpp"
+#include "conchoid/sim/swept_sheets.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr int kMostCarried = 8;           // frames in a row without a solution; by then nothing will come off
 constexpr double kLigamentIntensity = 3;  // × K_c, at ligaments narrower than a triangle
-constexpr int kUnresolvedFrames = 3;      // in a row, after which what is left to break is looked at
-constexpr double kDrivingSpacing = 1.0 / 10;  // × r̄: of the markers that move the cracks
-constexpr double kLargestCrumb = 1e-2;        // × the body
-constexpr double kSameSpacing = 1e-6;         // spacings that differ by less are the same
+constexpr double kLargestCrumb = 1e-2;    // × the body
 
 CrackSheet initial_sheet(const PreparedBody& body) {
   CrackSheet sheet;
@@ -56,11 +49,6 @@ ToughnessField toughness_field(const PreparedBody& body) {
   };
 }
 
-// All but the largest.
-double smaller_parts(const std::vector<double>& volume) {
-  return std::accumulate(volume.begin(), volume.end(), 0.0) - *std::max_element(volume.begin(), volume.end());
-}
-
 }  // namespace
 
 // On the heap and never moved: its parts refer to each other.
@@ -72,8 +60,8 @@ struct Fracture::State {
   std::unique_ptr<OpeningSource> predictor;  // none: bem itself
   FrontHistory history;
   CrackState crack;
-  FineFront fine;                    // moves the cracks, h = r̄/10 whatever is to be seen
-  std::optional<FineFront> visible;  // none: fine itself
+  SweptSheets sheets;
+  Parting parting;
   GrowthModel growth;
   double rayleigh_speed;
   std::vector<FractureObserver*> observers;
@@ -98,40 +86,26 @@ struct Fracture::State {
         predictor(source ? source(bem) : nullptr),
         history(body->material, body->toughness, body->crack_edge),
         crack{initial_sheet(*body), {}, {}, {}, {}, {}},
-        fine(crack.sheet, {.resolution = body->crack_edge, .spacing = kDrivingSpacing * body->crack_edge}),
+        sheets(crack.sheet, body->crack_edge, body->surface_edge),
+        parting(*body, settings),
         growth{law ? std::move(law) : hoop_stress_law(body->material, run), toughness_field(*body)},
         rayleigh_speed(conchoid::rayleigh_speed(
             m, body->material.density,
             run.exact_rayleigh_speed ? RayleighFormula::exact : RayleighFormula::published)),
         given_nodes(crack.sheet.mesh.node_count()) {
     crack.cut = whole_surface(body->surface);
-    if (std::abs(body->surface_edge / body->crack_edge / kDrivingSpacing - 1) > kSameSpacing)
-      visible.emplace(crack.sheet,
-                      FineFrontSettings{.resolution = body->crack_edge, .spacing = body->surface_edge});
   }
-
-  ClosestPointTree surface_tree{body->surface};  // of the boundary elements
-  int unresolved_frames = 0;                     // in a row
-  double cut_below =
-      std::numeric_limits<double>::infinity();         // volume that comes off: above, nothing is cut [m³]
-  std::optional<BodyCut> parted;                       // when it separated
-  int vain_cuts = 0;                                   // that did not part the body
-  int cut_again = 0;                                   // the first frame in which it is worth another try
-  double part_volume = 0;                              // of what has come off when it was not cut [m³]
-  mutable std::optional<std::vector<TriMesh>> sheets;  // visible_sheets(), while the fine fronts stand still
 
   OpeningSource& source() { return predictor ? *predictor : static_cast<OpeningSource&>(bem); }
   bool solves_next() const { return !predictor || predictor->solves(crack.sheet.frame); }
   bool solved() const { return carried == 0 && (!predictor || predictor->solved()); }
   // A prediction knows nothing of cracks that start later, unless it is solved now and then.
   bool may_start_cracks() const { return solved() && (!predictor || predictor->solves_later_frames()); }
-  TriMesh swept_surface() const;
-  const std::vector<TriMesh>& visible_sheets() const;
-  std::vector<TriMesh> unfold_visible_sheets() const;
-  bool is_told(double volume);
-  bool separated();
-  bool parts(bool at_end, const WhatBreaks& what);
-  bool ligament_breaks(bool at_end);
+  bool ligament_breaks(bool at_end) {
+    return parting.by_ligament({crack, openings, decisions, m, body->crack_edge, carried > 0}, sheets, frame,
+                               at_end);
+  }
+  bool separated() { return parting.by_cracks(crack, sheets, frame); }
   bool first(int number) const { return number <= before + 1; }
 
   void start(StepReport& report);
@@ -143,52 +117,6 @@ struct Fracture::State {
   void compute_frame(const Fracture& self, StepReport& report);
 };
 
-// Whether so much has come off that nothing needs to be cut to believe it.
-bool Fracture::State::is_told(double volume) {
-  if (volume < cut_below) return false;
-  part_volume = volume;
-  return true;
-}
-
-// By the cut of the boundary elements, and of the detailed body, which the markers may not have crossed quite.
-bool Fracture::State::separated() {
-  if (body->infinite() || !separates(crack.cut)) return false;
-  if (is_told(smaller_parts(glue(crack.cut).volume))) return true;
-  return parts(false, {LigamentsOf::each, [](const LastLigament&) { return true; }, std::nullopt});
-}
-
-// The more often cutting was in vain, the longer it waits for more to have cracked: what cannot be cut cleanly
-// stays so for a while, and each try costs as much as many frames. The last chance is always taken.
-bool Fracture::State::parts(bool at_end, const WhatBreaks& what) {
-  if (!at_end && frame < cut_again) return false;
-  BodyCut cut = cut_or_break(*body, settings, visible_sheets(), fine.surface(), what);
-  if (cut.parted() || settings.max_fragments == 1) parted = std::move(cut);
-  if (!parted) cut_again = frame + ++vain_cuts;
-  return parted.has_value();
-}
-
-// Whether what still holds the body together breaks at once: driven beyond what it bears, and too narrow for
-// the elements, or, where no front can go on, whatever is left.
-bool Fracture::State::ligament_breaks(bool at_end) {
-  if (body->infinite() || openings.size() != crack.points.size()) return false;
-  // A front that has a single ligament to go mostly takes it in a frame or two.
-  const FrontReadings front{crack, openings, decisions, m, body->crack_edge, carried > 0};
-  unresolved_frames = is_unresolved(front) ? unresolved_frames + 1 : 0;
-  if (!at_end && carried == 0 && !is_barred(crack) && unresolved_frames < kUnresolvedFrames &&
-      !nearly_through(crack, surface_tree, kWidestOverloadedLigament * body->crack_edge))
-    return false;
-  const auto breaks = [&](const LastLigament& ligament) {
-    return ligament_breaks_at_once(ligament, front, at_end);
-  };
-  // By the surface of the boundary elements first, which has fewer triangles than the detailed one.
-  // Cracks that bar each other's way for good may have left little together that is much to each.
-  const LigamentsOf of = at_end ? LigamentsOf::each_and_all : LigamentsOf::each;
-  const auto ligaments = find_last_ligaments(body->surface, fine.surface(), body->crack_edge, of);
-  const auto first = std::find_if(ligaments.begin(), ligaments.end(), breaks);
-  if (first == ligaments.end()) return false;
-  return is_told(first->smaller_part) || parts(at_end, {of, breaks, *first});
-}
-
 // A new crack where the stress as last solved exceeds the strength most. Whether there is one.
 bool Fracture::State::start_crack(StepReport& report) {
   const std::vector<CrackSite> sites = find_crack_sites(*body, crack, bem.body(), 1);
@@ -198,9 +126,7 @@ bool Fracture::State::start_crack(StepReport& report) {
   for (const auto& said : {clamp_warning(*body, sites[0].center), outline_warning(*body, sites[0].center)})
     if (said) report.warnings.push_back(*said);
   if (report.new_cracks++ == 0) report.start = {sites[0].severity, sites[0].center};
-  sheets.reset();
-  fine.append_parts(crack.sheet);
-  if (visible) visible->append_parts(crack.sheet);
+  sheets.append_parts();
   return true;
 }
 
@@ -321,18 +247,14 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   const std::size_t fronts_before = crack.sheet.fronts.size();
   if (may_start_cracks()) start_cracks(report);
   const bool new_crack = crack.sheet.fronts.size() > fronts_before;
-  const std::size_t before = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count();
-  if (!steps.empty()) {
-    sheets.reset();
-    advance_fronts(crack.sheet, fine, with_drawn_nodes(crack.sheet, steps), growth, body->crack_edge,
-                   visible ? &*visible : nullptr);
-  }
+  const std::size_t before = sheets.driving().triangle_count() + crack.sheet.mesh.triangle_count();
+  if (!steps.empty()) sheets.advance(with_drawn_nodes(crack.sheet, steps), growth);
   if (!steps.empty() || new_crack)
     update_crack(crack, body->surface, body->crack_edge,
                  solves_next() ? NearCracks::divided : NearCracks::as_it_is);
   report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
-  const bool grown = fine.surface().triangle_count() + crack.sheet.mesh.triangle_count() > before;
+  const bool grown = sheets.driving().triangle_count() + crack.sheet.mesh.triangle_count() > before;
   if (!grown && !new_crack)
     stop = ligament_breaks(true) ? StopReason::separated : StopReason::arrested;
   else if (separated())
@@ -450,47 +372,20 @@ std::size_t Fracture::cracks() const {
 }
 
 const std::vector<TriMesh>& Fracture::visible_sheets() const {
-  return state_->visible_sheets();
+  return state_->sheets.visible();
 }
 TriMesh Fracture::swept_surface() const {
-  return state_->swept_surface();
+  return state_->sheets.swept();
 }
 void Fracture::cut_below(double volume) {
-  state_->cut_below = volume;
+  state_->parting.cut_below(volume);
 }
 
 double Fracture::volume_off() const {
-  const BodyCut* cut = parted();
-  if (cut == nullptr) return state_->part_volume;
-  std::vector<double> volume;
-  for (const Fragment& f : cut->fragments)
-    volume.push_back(f.volume);
-  return smaller_parts(volume);
+  return state_->parting.volume_off();
 }
-
 const BodyCut* Fracture::parted() const {
-  return state_->parted ? &*state_->parted : nullptr;
-}
-
-TriMesh Fracture::State::swept_surface() const {
-  FineFront finished = visible ? *visible : fine;
-  if (!crack.sheet.fronts.empty()) finished.finish();
-  return finished.surface();
-}
-
-const std::vector<TriMesh>& Fracture::State::visible_sheets() const {
-  if (!sheets) sheets = unfold_visible_sheets();
-  return *sheets;
-}
-
-std::vector<TriMesh> Fracture::State::unfold_visible_sheets() const {
-  std::vector<TriMesh> apart = split_parts(swept_surface());
-  parallel_for(apart.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      apart[i] = unfolded_part(apart[i]);
-  });
-  std::erase_if(apart, [](const TriMesh& sheet) { return sheet.corners.empty(); });
-  return apart;
+  return state_->parting.cut();
 }
 
 StopReason run_frames(Fracture& fracture, int limit, const std::function<void()>& progress) {
