@@ -87,6 +87,7 @@ JoinedSamples chosen_samples(const ForestOptions& options, FeatureSet features, 
   }
   TrainingChoice choice = options.choice;
   choice.end_game = learns_end_game(features) && !options.no_end_game;
+  choice.new_nodes = learns_new_nodes(features);
   for (const auto* classes : {&choice.only, &choice.without})
     require_classes(databases, *classes);
   return join_samples(databases, choice);

@@ -97,6 +97,20 @@ TEST(Database, GivesBackWhatWasPutIn) {
   EXPECT_FALSE(fs::exists(folder / "a.h5.parts")) << "nothing is left beside a complete database";
 }
 
+TEST(Database, NodesThatAreNewOnAFrontAreLearnedFromWhereThatIsAskedFor) {
+  Database d;
+  d.runs = {record(0)};
+  d.samples = samples_of(0);
+  const std::size_t others = d.training_samples().size();
+  Sample fresh = d.samples[0];
+  fresh.opening = Vec3::Zero();
+  d.samples.add(fresh);
+  EXPECT_EQ(d.training_samples().size(), others);
+  TrainingChoice choice;
+  choice.new_nodes = true;
+  EXPECT_EQ(d.training_samples(choice).size(), others + 1);
+}
+
 TEST(Database, IsPlainHdf5BehindItsFirstBlock) {
   const TemporaryFolder folder;
   generate(folder / "a.h5", header(3), false);

@@ -146,6 +146,8 @@ TEST(VersatileFeatures, ATearIsLearnedAndShearOnlyUpToAHalf) {
   s.driving_after = {4e6, 1e6, 4.5e6};
   const Vec3 torn = driving_from_label(s, kSet, label(s, kSet)).value();
   EXPECT_NEAR((torn - s.driving_after).norm(), 0, 1e-8 * torn.norm());
+  s.driving_after = {0, 0, 4e6};
+  EXPECT_NEAR((driving_from_label(s, kSet, label(s, kSet)).value() - s.driving_after).norm(), 0, 1e-2);
   s.driving_after = {4e6, 9e6, 1e6};
   EXPECT_NEAR(label(s, kSet)[1], 0.5, 1e-12);
 }

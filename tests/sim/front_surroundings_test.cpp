@@ -40,7 +40,7 @@ Measured measured(const Scene& scene) {
       around.measure(still, f.load(), 0);
       for (std::size_t i = 0; i < still.points.size(); ++i) {
         Sample s;
-        EXPECT_TRUE(around.complete(still, i, s));
+        EXPECT_TRUE(around.complete(still, i, still.points[i].correlation, s));
         out.samples.push_back(s);
       }
     }
@@ -122,15 +122,40 @@ TEST(FrontSurroundings, AnInfiniteBodyTakesNothingOver) {
   }
 }
 
-TEST(FrontSurroundings, RecordedSamplesPairSuccessiveFramesOncePerCorrelationNode) {
-  const Scene scene = test::scene_from_text(test::pulled_cube_text());
+SampleSet recorded(const std::string& text, SampleRecorder::Fields fields) {
+  const Scene scene = test::scene_from_text(text);
   const auto body = std::make_shared<const PreparedBody>(prepare(scene));
   Fracture fracture(body, load_of(scene, *body), scene.run);
-  SampleRecorder recorder(SampleRecorder::Fields::all);
+  SampleRecorder recorder(fields);
   fracture.add_observer(recorder);
   for (int frame = 0; frame < 6 && fracture.step().moving; ++frame) {
   }
-  const SampleSet samples = recorder.take();
+  return recorder.take();
+}
+
+TEST(FrontSurroundings, NodesThatAreNewAtTheEndOfAFrontAreLearnedFromWithThePastOfTheirNeighbour) {
+  const std::string torn =
+      "[body]\nmodel = 'edge-crack-cube'\n" + test::material_text() + test::resolution_text(0.1, 0.02) +
+      test::boundary_text("z+", "traction", 1e7 * Vec3::UnitY()) +
+      test::boundary_text("z-", "traction", -1e7 * Vec3::UnitY()) + "[run]\ninertia_relief = true\n";
+  const SampleSet samples = recorded(torn, SampleRecorder::Fields::all);
+  std::size_t fresh = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample s = samples[i];
+    if (!is_new_on_front(s)) continue;
+    ++fresh;
+    EXPECT_GT(s.driving_after.norm(), 0) << "its own";
+    const bool shared = (i > 0 && samples[i - 1].driving == s.driving) ||
+                        (i + 1 < samples.size() && samples[i + 1].driving == s.driving);
+    EXPECT_TRUE(shared) << "frame " << s.frame << ", node " << s.node;
+  }
+  EXPECT_GT(fresh, 0u);
+  const SampleSet published = recorded(torn, SampleRecorder::Fields::free);
+  EXPECT_EQ(published.size(), samples.size() - fresh) << "the published method has no past for them";
+}
+
+TEST(FrontSurroundings, RecordedSamplesPairSuccessiveFramesOncePerCorrelationNode) {
+  const SampleSet samples = recorded(test::pulled_cube_text(), SampleRecorder::Fields::all);
   ASSERT_GT(samples.size(), 20u);
   EXPECT_NO_THROW(samples.validate());
   EXPECT_NO_THROW(require_recorded(FeatureSet::versatile, samples));

@@ -19,8 +19,7 @@ SampleSet Database::training_samples(const TrainingChoice& choice) const {
     if (run.excluded || !choice.takes(run.body_class)) left_out.insert(run.id);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (!left_out.contains(samples.run()[i]) && (choice.end_game || !is_end_game(samples[i])))
-      kept.push_back(i);
+    if (!left_out.contains(samples.run()[i]) && choice.takes(samples[i])) kept.push_back(i);
   return samples.subset(kept);
 }
 

@@ -54,9 +54,14 @@ struct TrainingChoice {
   bool end_game = false;
   std::set<std::string> only;     ///< classes of bodies; empty: all
   std::set<std::string> without;  ///< classes that are held out
+  /// Nodes that are new at the end of a front, too. The published method has no past for them.
+  bool new_nodes = false;
 
   bool takes(const std::string& body_class) const {
     return !without.contains(body_class) && (only.empty() || only.contains(body_class));
+  }
+  bool takes(const Sample& s) const {
+    return (end_game || !is_end_game(s)) && (new_nodes || !is_new_on_front(s));
   }
 };
 

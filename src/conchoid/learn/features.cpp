@@ -210,6 +210,10 @@ bool learns_end_game(FeatureSet set) {
   return set == FeatureSet::versatile;
 }
 
+bool learns_new_nodes(FeatureSet set) {
+  return set == FeatureSet::versatile;
+}
+
 std::optional<Vec3> driving_from_label(const Sample& s, FeatureSet set, const Vec3& label) {
   if (set != FeatureSet::versatile) return std::nullopt;
   return versatile_driving(s, label);

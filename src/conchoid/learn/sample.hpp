@@ -59,7 +59,7 @@ struct Sample {
   Vec3 turn = Vec3::Zero();  ///< what the frame has turned: e2′·e1, e3′·e1, e2′·e3
   /// Label: K that drives the front of frame n, in its own front frame [Pa√m]
   Vec3 driving_after = Vec3::Zero();
-  /// Label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]
+  /// Label: Δu of the correlation node at frame n, in the front frame of frame n−1 [m]; zero where is_new_on_front()
   Vec3 opening = Vec3::Zero();
 };
 
@@ -68,6 +68,12 @@ struct Sample {
 inline constexpr double kLargestOpening = 3;
 inline bool is_end_game(const Sample& s) {
   return s.opening.norm() >= kLargestOpening * s.resolution;
+}
+
+/// Whether its node is new at the end of a front: what its neighbour was in the frame before stands for it, it has no opening of
+/// its own to learn, and `node` is itself.
+inline bool is_new_on_front(const Sample& s) {
+  return s.opening.isZero(0);
 }
 
 /// One real-valued field of a Sample.

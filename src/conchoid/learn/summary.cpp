@@ -56,7 +56,9 @@ DatabaseInfo database_info(const Database& database) {
     info.mean_frames += run.frames / static_cast<double>(info.runs);
     info.wall_seconds += run.wall_seconds;
   }
-  info.end_game_samples = info.training_samples - database.training_samples().size();
+  TrainingChoice without_end_game;
+  without_end_game.new_nodes = true;
+  info.end_game_samples = info.training_samples - database.training_samples(without_end_game).size();
   return info;
 }
 

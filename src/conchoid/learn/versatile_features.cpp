@@ -13,8 +13,8 @@ namespace {
 constexpr double kLeastGrowth = -4, kMostGrowth = 6;  // of ln S, in one frame
 constexpr double kMostNetGrowth = 3;                  // of ln of what the ligament carries
 // Of w_II as a label: beyond it, it is mostly error of K at single points, at mouths and last ligaments, which least squares
-// would make everything of. w_III stays large for some frames where a crack is torn.
-constexpr double kMostShear = 0.5, kMostTear = 0.85;
+// would make everything of. w_III is all there is for some frames where a crack is torn.
+constexpr double kMostShear = 0.5;
 
 // What reversing the normal (first) and mirroring (second) do to a quantity.
 struct Parity {
@@ -252,7 +252,7 @@ Vec3 versatile_label(const Sample& s) {
   if (!(before > 0 && after > 0)) return Vec3::Zero();
   const Vec3 w = scaled(s, s.driving_after) / after;
   return {std::clamp(std::log(after / before), kLeastGrowth, kMostGrowth),
-          std::clamp(w[1], -kMostShear, kMostShear), std::clamp(w[2], -kMostTear, kMostTear)};
+          std::clamp(w[1], -kMostShear, kMostShear), w[2]};
 }
 
 Vec3 versatile_label_image(int image, const Vec3& label) {
@@ -265,8 +265,9 @@ Vec3 versatile_label_image(int image, const Vec3& label) {
 Vec3 versatile_driving(const Sample& s, const Vec3& label) {
   const double before = size(s, s.driving);
   if (!(before > 0)) return Vec3::Zero();
-  Vec3 w(0, std::clamp(label[1], -kMostShear, kMostShear), std::clamp(label[2], -kMostTear, kMostTear));
-  w[0] = std::sqrt(1 - w[1] * w[1] - w[2] * w[2]);
+  Vec3 w(0, std::clamp(label[1], -kMostShear, kMostShear), std::clamp(label[2], -1.0, 1.0));
+  w[0] = std::sqrt(std::max(0.0, 1 - w[1] * w[1] - w[2] * w[2]));
+  w.normalize();
   return unscaled(s, grown_size(before, label) * w);
 }
 

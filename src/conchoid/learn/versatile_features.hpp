@@ -24,7 +24,7 @@ namespace conchoid {
 // in the mean of both sides, and how lopsided they are, d/d⁻ − d/d⁺ with d the nearer one. These tell which side of the crack
 // is the weaker beam: cracks turn to it. Nothing tells the size of the load or K_c, so both may be anything.
 //
-// Label: ln(S′/S), w_II′ within ± 0.5, where nearly all are that are more than error, w_III′ within ± 0.85. Nothing learned is
+// Label: ln(S′/S), w_II′ within ± 0.5, where nearly all are that are more than error, w_III′. Nothing learned is
 // zero: the front goes straight on, opened by the K that it had. (Learning what "K as it was in the front's own frame"
 // misses is no better, and worse on most classes of bodies left out of training: K_II does not last.)
 //

@@ -1,5 +1,6 @@
 #include "conchoid/sim/front_gaps.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace conchoid {
@@ -22,6 +23,21 @@ std::vector<PointChain> point_chains(const CrackState& crack) {
     if (!chain.points.empty()) chains.push_back(std::move(chain));
   }
   return chains;
+}
+
+std::vector<std::optional<std::size_t>> nearest_before_ends(const std::vector<PointChain>& chains,
+                                                            const std::vector<char>& known) {
+  std::vector<std::optional<std::size_t>> nearest(known.size());
+  for (const PointChain& chain : chains) {
+    const auto& points = chain.points;
+    const auto has = [&](std::size_t point) { return known[point] != 0; };
+    const auto first = std::find_if(points.begin(), points.end(), has);
+    if (chain.closed || first == points.end()) continue;
+    const auto behind_last = std::find_if(points.rbegin(), points.rend(), has).base();
+    std::for_each(points.begin(), first, [&](std::size_t point) { nearest[point] = *first; });
+    std::for_each(behind_last, points.end(), [&](std::size_t point) { nearest[point] = *(behind_last - 1); });
+  }
+  return nearest;
 }
 
 namespace {

@@ -9,20 +9,22 @@ const FrontHistory::Entry* FrontHistory::find(NodeId node) const {
   return found == entries_.end() ? nullptr : &found->second;
 }
 
-std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontPoint& point) const {
-  if (!point.correlation.valid() || !(point.distance > 0)) return {};
-  const Entry* before = find(point.correlation);
+std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontPoint& point,
+                                           const FrontPoint& neighbour) const {
+  const NodeId old = neighbour.correlation;
+  if (!old.valid() || !(neighbour.distance > 0)) return {};
+  const Entry* before = find(old);
   if (!before || !(before->distance > 0)) return {};
   Sample s;
   s.frame = crack.sheet.frame + 1;
-  s.node = point.correlation.value;
+  s.node = point.node == neighbour.node ? old.value : point.node.value;
   s.front = point.front;
   s.K = before->intensity;
-  s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[point.correlation]).value;
+  s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[old]).value;
   s.resolution = resolution_;
   s.distance_before = before->distance;
-  s.distance_after = point.distance;
-  s.travelled = crack.sheet.travelled[point.correlation];
+  s.distance_after = neighbour.distance;
+  s.travelled = crack.sheet.travelled[old];
   s.youngs_modulus = material_.youngs_modulus;
   s.poisson_ratio = material_.poisson_ratio;
   return s;

@@ -20,9 +20,14 @@ class FrontHistory {
   FrontHistory(const MaterialSpec& material, const MaterialField& toughness, double resolution)
       : material_(material), toughness_(toughness), resolution_(resolution) {}
 
-  /// The sample of a point whose correlation node was on the front in the frame before; its label is left at
+  /// The sample of a point whose correlation node was on the front in the frame before; its labels are left at
   /// zero.
-  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const;
+  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const {
+    return sample(crack, point, point);
+  }
+  /// The same with what a neighbour on the front was like in the frame before, for a point that is new on it.
+  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point,
+                               const FrontPoint& neighbour) const;
   /// What is remembered of a node.
   struct Entry {
     FrontFrame frame;

@@ -155,8 +155,8 @@ void FrontSurroundings::measure_sections(const CrackState& crack, const std::vec
   }
 }
 
-bool FrontSurroundings::complete(const CrackState& crack, std::size_t i, Sample& s) const {
-  const auto found = before_.find(crack.points[i].correlation);
+bool FrontSurroundings::complete(const CrackState& crack, std::size_t i, NodeId node, Sample& s) const {
+  const auto found = before_.find(node);
   if (found == before_.end()) return false;
   const Point &old = found->second, &now = points_[i];
   s.front_curvature = old.curvature;

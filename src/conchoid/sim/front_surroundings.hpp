@@ -27,9 +27,9 @@ class FrontSurroundings {
   /// @param version  another one where the load is another
   void measure(const CrackState& crack, const LoadCase& load, std::size_t version);
   /// Everything in a sample but its labels and what FrontHistory::sample() has filled in. @param i  point of the crack
-  /// as last measured
-  /// @return false where the correlation node was not on the front in the frame before
-  bool complete(const CrackState& crack, std::size_t i, Sample& sample) const;
+  /// as last measured  @param old  what stands for it in the frame before
+  /// @return false where that node was not on the front then
+  bool complete(const CrackState& crack, std::size_t i, NodeId old, Sample& sample) const;
   /// Keeps what was measured, and K, for the frame after.
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings);
 

@@ -140,15 +140,24 @@ Vec3 OpeningByPredictor::turned_spread(const FrontFrame& before, const FrontPoin
 std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
   SampleSet samples;
-  std::vector<std::size_t> asked;
+  struct Asked {
+    std::size_t point;
+    NodeId old;  // what stands for it in the frame before
+  };
+  std::vector<Asked> asked;
+  std::vector<char> known;
+  for (const FrontPoint& point : crack.points)
+    known.push_back(history().find(point.node) != nullptr || history().sample(crack, point).has_value());
+  std::vector<std::optional<std::size_t>> neighbour(out.size());
+  if (surroundings_) neighbour = nearest_before_ends(point_chains(crack), known);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const FrontPoint& point = crack.points[i];
+    const FrontPoint &point = crack.points[i], &past = neighbour[i] ? crack.points[*neighbour[i]] : point;
     if (const FrontHistory::Entry* still = history().find(point.node)) {  // it did not move: nothing changes
       out[i].intensity = out[i].node_intensity = surroundings_ ? still->driving : still->intensity;
-    } else if (auto sample = history().sample(crack, point)) {
-      if (surroundings_) surroundings_->complete(crack, i, *sample);
+    } else if (auto sample = history().sample(crack, point, past)) {
+      if (surroundings_) surroundings_->complete(crack, i, past.correlation, *sample);
       samples.add(*sample);
-      asked.push_back(i);
+      asked.push_back({i, past.correlation});
     } else {
       out[i].known = false;
     }
@@ -156,18 +165,19 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
   if (samples.empty()) return out;
   const std::vector<OpeningPrediction> predictions = predictor_.predict_openings(samples);
   for (std::size_t p = 0; p < predictions.size(); ++p) {
-    const FrontPoint& point = crack.points[asked[p]];
-    FrontOpening& o = out[asked[p]];
+    const FrontPoint& point = crack.points[asked[p].point];
+    const FrontFrame& frame_before = history().find(asked[p].old)->frame;
+    FrontOpening& o = out[asked[p].point];
     o.in_range = predictions[p].in_range;
     if (predictions[p].driving) {
       set_intensity(point, *predictions[p].driving, o);
       o.spread = predictions[p].driving_spread;
       continue;
     }
-    o.opening = in_world(history().find(point.correlation)->frame, predictions[p].opening);
+    o.opening = in_world(frame_before, predictions[p].opening);
     o.intensity = o.node_intensity =
         stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
-    o.spread = turned_spread(history().find(point.correlation)->frame, point, predictions[p].spread);
+    o.spread = turned_spread(frame_before, point, predictions[p].spread);
   }
   return out;
 }
