@@ -88,16 +88,15 @@ TEST(FrontGaps, ChainsDoNotHearOfEachOther) {
   }
 }
 
-TEST(FrontGaps, BeyondTheLastThatIsKnownItIsTheNearest) {
-  using Nearest = std::vector<std::optional<std::size_t>>;
+TEST(FrontGaps, NearestAreCountedAlongTheChainToBothSides) {
+  using Nearest = std::vector<std::vector<std::size_t>>;
   const std::vector<char> known = {0, 0, 1, 0, 1, 0, 0};
   const std::vector<std::size_t> in_order = {0, 1, 2, 3, 4, 5, 6};
-  EXPECT_EQ(nearest_before_ends(chain(in_order, false), known), (Nearest{2, 2, {}, {}, {}, 4, 4}))
-      << "not between two that are known";
-  EXPECT_EQ(nearest_before_ends(chain(in_order, true), known), Nearest(7)) << "a ring has no ends";
-  EXPECT_EQ(nearest_before_ends(chain(in_order, false), std::vector<char>(7, 0)), Nearest(7));
-  EXPECT_EQ(nearest_before_ends({{{5, 2, 0}, false}, {{1, 3}, false}}, known),
-            (Nearest{2, {}, {}, {}, {}, 2, {}}))
+  EXPECT_EQ(nearest_known(chain(in_order, false), known), (Nearest{{2}, {2}, {}, {2, 4}, {}, {4}, {4}}));
+  EXPECT_EQ(nearest_known(chain(in_order, true), known), (Nearest{{2}, {2}, {}, {2, 4}, {}, {4}, {4}}));
+  EXPECT_EQ(nearest_known(chain(in_order, false), std::vector<char>(7, 0)), Nearest(7));
+  EXPECT_EQ(nearest_known({{{5, 2, 0}, false}, {{1, 3}, false}}, known),
+            (Nearest{{2}, {}, {}, {}, {}, {2}, {}}))
       << "chains do not hear of each other";
 }
 

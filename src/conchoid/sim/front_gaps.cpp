@@ -1,6 +1,5 @@
 #include "conchoid/sim/front_gaps.hpp"
 
-#include <algorithm>
 #include <optional>
 
 namespace conchoid {
@@ -25,21 +24,6 @@ std::vector<PointChain> point_chains(const CrackState& crack) {
   return chains;
 }
 
-std::vector<std::optional<std::size_t>> nearest_before_ends(const std::vector<PointChain>& chains,
-                                                            const std::vector<char>& known) {
-  std::vector<std::optional<std::size_t>> nearest(known.size());
-  for (const PointChain& chain : chains) {
-    const auto& points = chain.points;
-    const auto has = [&](std::size_t point) { return known[point] != 0; };
-    const auto first = std::find_if(points.begin(), points.end(), has);
-    if (chain.closed || first == points.end()) continue;
-    const auto behind_last = std::find_if(points.rbegin(), points.rend(), has).base();
-    std::for_each(points.begin(), first, [&](std::size_t point) { nearest[point] = *first; });
-    std::for_each(behind_last, points.end(), [&](std::size_t point) { nearest[point] = *(behind_last - 1); });
-  }
-  return nearest;
-}
-
 namespace {
 
 // The point `step` places along the chain from place `at`; none beyond the end of an open one.
@@ -51,38 +35,40 @@ std::optional<std::size_t> neighbour(const PointChain& chain, std::size_t at, st
   return chain.points[static_cast<std::size_t>(to)];
 }
 
-// Mean K of the nearest points of the chain that have one.
-std::optional<Vec3> nearest_intensity(const PointChain& chain, std::size_t at, const std::vector<char>& known,
-                                      const std::vector<FrontOpening>& openings) {
+// One to each side at the least number of steps at which there is one.
+std::vector<std::size_t> nearest_on(const PointChain& chain, std::size_t at, const std::vector<char>& known) {
   const auto n = static_cast<std::ptrdiff_t>(chain.points.size());
-  for (std::ptrdiff_t step = 1; step < n; ++step) {
-    Vec3 sum = Vec3::Zero();
-    int count = 0;
-    for (const std::ptrdiff_t side : {step, -step})
-      if (const auto point = neighbour(chain, at, side); point && known[*point]) {
-        sum += openings[*point].intensity;
-        ++count;
-      }
-    if (count > 0) return sum / count;
-  }
-  return {};
+  std::vector<std::size_t> found;
+  for (std::ptrdiff_t step = 1; step < n && found.empty(); ++step)
+    for (const std::ptrdiff_t side : {-step, step})
+      if (const auto point = neighbour(chain, at, side); point && known[*point]) found.push_back(*point);
+  return found;
 }
 
 }  // namespace
+
+std::vector<std::vector<std::size_t>> nearest_known(const std::vector<PointChain>& chains,
+                                                    const std::vector<char>& known) {
+  std::vector<std::vector<std::size_t>> nearest(known.size());
+  for (const PointChain& chain : chains)
+    for (std::size_t at = 0; at < chain.points.size(); ++at)
+      if (!known[chain.points[at]]) nearest[chain.points[at]] = nearest_on(chain, at, known);
+  return nearest;
+}
 
 void fill_gaps(const std::vector<PointChain>& chains, std::vector<FrontOpening>& openings) {
   std::vector<char> known;
   for (const FrontOpening& opening : openings)
     known.push_back(opening.known);
-  for (const PointChain& chain : chains)
-    for (std::size_t at = 0; at < chain.points.size(); ++at) {
-      FrontOpening& opening = openings[chain.points[at]];
-      if (known[chain.points[at]]) continue;
-      if (const auto intensity = nearest_intensity(chain, at, known, openings)) {
-        opening.intensity = opening.node_intensity = *intensity;
-        opening.known = true;
-      }
-    }
+  const std::vector<std::vector<std::size_t>> nearest = nearest_known(chains, known);
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    if (nearest[i].empty()) continue;
+    Vec3 sum = Vec3::Zero();
+    for (const std::size_t point : nearest[i])
+      sum += openings[point].intensity;
+    openings[i].intensity = openings[i].node_intensity = sum / static_cast<double>(nearest[i].size());
+    openings[i].known = true;
+  }
 }
 
 }  // namespace conchoid

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -21,9 +20,10 @@ std::vector<PointChain> point_chains(const CrackState& crack);
 /// Index into CrackState::points by node of the cut, as fronts have them; their ends at the surface are no points.
 std::unordered_map<NodeId, std::size_t> points_by_cut_node(const CrackState& crack);
 
-/// For points without an answer at the end of a chain, beyond all that have one, the nearest that has; none for all others.
-std::vector<std::optional<std::size_t>> nearest_before_ends(const std::vector<PointChain>& chains,
-                                                            const std::vector<char>& known);
+/// For points that are not known the nearest of their chain that are, one to each side, counted in points; empty for known
+/// ones, and where none of the chain is.
+std::vector<std::vector<std::size_t>> nearest_known(const std::vector<PointChain>& chains,
+                                                    const std::vector<char>& known);
 
 /// Gives every point without a K of its own (known = false) the mean K of the nearest points of its chain
 /// that have one, one to each side, counted in points. Where no point of the chain has one they stay unknown,

@@ -10,20 +10,19 @@ const FrontHistory::Entry* FrontHistory::find(NodeId node) const {
 }
 
 std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontPoint& point,
-                                           const FrontPoint& neighbour) const {
-  const NodeId old = neighbour.correlation;
-  if (!old.valid() || !(neighbour.distance > 0)) return {};
+                                           NodeId old) const {
+  if (!old.valid() || !(point.distance > 0)) return {};
   const Entry* before = find(old);
   if (!before || !(before->distance > 0)) return {};
   Sample s;
   s.frame = crack.sheet.frame + 1;
-  s.node = point.node == neighbour.node ? old.value : point.node.value;
+  s.node = old == point.correlation ? old.value : point.node.value;
   s.front = point.front;
   s.K = before->intensity;
   s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[old]).value;
   s.resolution = resolution_;
   s.distance_before = before->distance;
-  s.distance_after = neighbour.distance;
+  s.distance_after = point.distance;
   s.travelled = crack.sheet.travelled[old];
   s.youngs_modulus = material_.youngs_modulus;
   s.poisson_ratio = material_.poisson_ratio;
@@ -31,9 +30,11 @@ std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontP
 }
 
 void FrontHistory::remember(const CrackState& crack, const std::vector<FrontOpening>& openings) {
+  last_.clear();
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& p = crack.points[i];
     if (!openings[i].known) continue;
+    last_.push_back(p.node);
     entries_[p.node] = {p.frame, openings[i].node_intensity, p.distance, crack.sheet.frame,
                         openings[i].intensity};
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "conchoid/learn/features.hpp"
 #include "conchoid/sim/crack_state.hpp"
@@ -20,14 +21,9 @@ class FrontHistory {
   FrontHistory(const MaterialSpec& material, const MaterialField& toughness, double resolution)
       : material_(material), toughness_(toughness), resolution_(resolution) {}
 
-  /// The sample of a point whose correlation node was on the front in the frame before; its labels are left at
-  /// zero.
-  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point) const {
-    return sample(crack, point, point);
-  }
-  /// The same with what a neighbour on the front was like in the frame before, for a point that is new on it.
-  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point,
-                               const FrontPoint& neighbour) const;
+  /// The sample of a point that comes from the node `old`, its correlation node or what stands for that (front_pasts.hpp); its
+  /// labels are left at zero. None where that was not on a front before.
+  std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point, NodeId old) const;
   /// What is remembered of a node.
   struct Entry {
     FrontFrame frame;
@@ -37,6 +33,8 @@ class FrontHistory {
     Vec3 driving;     ///< K that moved it
   };
   const Entry* find(NodeId node) const;
+  /// Those that were remembered last.
+  const std::vector<NodeId>& last() const { return last_; }
   /// Remembers the points as they are now, but for those of which nothing is known.
   /// @param openings  in the order of crack.points
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings);
@@ -46,6 +44,7 @@ class FrontHistory {
   MaterialField toughness_;
   double resolution_;
   std::unordered_map<NodeId, Entry> entries_;
+  std::vector<NodeId> last_;
 };
 
 }  // namespace conchoid

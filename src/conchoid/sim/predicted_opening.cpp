@@ -7,6 +7,7 @@
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/sim/frames_ahead.hpp"
 #include "conchoid/sim/front_gaps.hpp"
+#include "conchoid/sim/front_pasts.hpp"
 
 namespace conchoid {
 namespace {
@@ -52,9 +53,17 @@ std::optional<std::vector<FrontOpening>> PredictedOpening::solve(const CrackStat
   }
 }
 
+// A front that has just come into the body, with no point that anything is known of, goes by K nearest to it.
 std::vector<FrontOpening> PredictedOpening::predicted(const CrackState& crack) const {
   std::vector<FrontOpening> out = predict(crack);
   fill_gaps(point_chains(crack), out);
+  if (std::all_of(out.begin(), out.end(), [](const FrontOpening& o) { return o.known; })) return out;
+  const std::vector<FrontPast> pasts = front_pasts(crack, history_);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i].known || pasts[i].nodes.empty()) continue;
+    set_intensity(crack.points[i], history_.find(pasts[i].nodes[0])->driving, out[i]);
+    out[i].known = true;
+  }
   return out;
 }
 
@@ -124,6 +133,21 @@ void OpeningByPredictor::remember(const CrackState& crack, const std::vector<Fro
   if (surroundings_) surroundings_->remember(crack, openings);
 }
 
+namespace {
+
+// Of the two that a point with a neighbour on each side is told.
+FrontOpening mean(const FrontOpening& a, const FrontOpening& b) {
+  FrontOpening m;
+  m.opening = (a.opening + b.opening) / 2;
+  m.intensity = (a.intensity + b.intensity) / 2;
+  m.node_intensity = (a.node_intensity + b.node_intensity) / 2;
+  m.spread = (a.spread + b.spread) / 2;
+  m.in_range = a.in_range && b.in_range;
+  return m;
+}
+
+}  // namespace
+
 // Deviation of K in a point's frame from that of the opening in the frame that the point had before, whose
 // components are independent.
 Vec3 OpeningByPredictor::turned_spread(const FrontFrame& before, const FrontPoint& point,
@@ -137,47 +161,54 @@ Vec3 OpeningByPredictor::turned_spread(const FrontFrame& before, const FrontPoin
   return variance.cwiseSqrt();
 }
 
+FrontOpening OpeningByPredictor::answer(const FrontPoint& point, NodeId old,
+                                        const OpeningPrediction& prediction) const {
+  FrontOpening o;
+  o.in_range = prediction.in_range;
+  if (prediction.driving) {
+    set_intensity(point, *prediction.driving, o);
+    o.spread = prediction.driving_spread;
+    return o;
+  }
+  const FrontFrame& before = history().find(old)->frame;
+  o.opening = in_world(before, prediction.opening);
+  o.intensity = o.node_intensity =
+      stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
+  o.spread = turned_spread(before, point, prediction.spread);
+  return o;
+}
+
+// A predictor that looks around is asked for points that were not on the front before, too, by what their neighbours were like.
 std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) const {
   std::vector<FrontOpening> out(crack.points.size());
-  SampleSet samples;
   struct Asked {
     std::size_t point;
-    NodeId old;  // what stands for it in the frame before
+    NodeId old;
   };
   std::vector<Asked> asked;
-  std::vector<char> known;
-  for (const FrontPoint& point : crack.points)
-    known.push_back(history().find(point.node) != nullptr || history().sample(crack, point).has_value());
-  std::vector<std::optional<std::size_t>> neighbour(out.size());
-  if (surroundings_) neighbour = nearest_before_ends(point_chains(crack), known);
+  SampleSet samples;
+  const std::vector<FrontPast> pasts = front_pasts(crack, history());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const FrontPoint &point = crack.points[i], &past = neighbour[i] ? crack.points[*neighbour[i]] : point;
+    const FrontPoint& point = crack.points[i];
     if (const FrontHistory::Entry* still = history().find(point.node)) {  // it did not move: nothing changes
       out[i].intensity = out[i].node_intensity = surroundings_ ? still->driving : still->intensity;
-    } else if (auto sample = history().sample(crack, point, past)) {
-      if (surroundings_) surroundings_->complete(crack, i, past.correlation, *sample);
-      samples.add(*sample);
-      asked.push_back({i, past.correlation});
-    } else {
-      out[i].known = false;
+      continue;
     }
+    out[i].known = false;
+    if (!pasts[i].own && !surroundings_) continue;
+    for (const NodeId old : pasts[i].nodes)
+      if (auto sample = history().sample(crack, point, old)) {
+        if (surroundings_) surroundings_->complete(crack, i, old, *sample);
+        samples.add(*sample);
+        asked.push_back({i, old});
+      }
   }
   if (samples.empty()) return out;
   const std::vector<OpeningPrediction> predictions = predictor_.predict_openings(samples);
   for (std::size_t p = 0; p < predictions.size(); ++p) {
-    const FrontPoint& point = crack.points[asked[p].point];
-    const FrontFrame& frame_before = history().find(asked[p].old)->frame;
-    FrontOpening& o = out[asked[p].point];
-    o.in_range = predictions[p].in_range;
-    if (predictions[p].driving) {
-      set_intensity(point, *predictions[p].driving, o);
-      o.spread = predictions[p].driving_spread;
-      continue;
-    }
-    o.opening = in_world(frame_before, predictions[p].opening);
-    o.intensity = o.node_intensity =
-        stress_intensity(in_frame(point.frame, o.opening), point.distance, material(), sif().convention);
-    o.spread = turned_spread(frame_before, point, predictions[p].spread);
+    const auto [i, old] = asked[p];
+    const FrontOpening o = answer(crack.points[i], old, predictions[p]);
+    out[i] = out[i].known ? mean(out[i], o) : o;
   }
   return out;
 }

@@ -97,6 +97,7 @@ class OpeningByPredictor : public PredictedOpening {
   std::vector<FrontOpening> predict(const CrackState& crack) const override;
   void look_at(const CrackState& crack) override;
   void remember(const CrackState& crack, const std::vector<FrontOpening>& openings) override;
+  FrontOpening answer(const FrontPoint& point, NodeId old, const OpeningPrediction& prediction) const;
   Vec3 turned_spread(const FrontFrame& before, const FrontPoint& point, const Vec3& spread) const;
 
   const OpeningPredictor& predictor_;

@@ -5,7 +5,7 @@
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
-#include "conchoid/sim/front_gaps.hpp"
+#include "conchoid/sim/front_pasts.hpp"
 
 namespace conchoid {
 
@@ -49,17 +49,6 @@ std::map<NodeId, std::size_t> nearest_points(const CrackState& crack) {
 
 }  // namespace
 
-// Points that are new at the end of a front stand for what their neighbour was before.
-std::vector<std::optional<std::size_t>> SampleRecorder::neighbours_of_new_points(
-    const Fracture& fracture) const {
-  const CrackState& crack = fracture.crack();
-  if (fields_ == Fields::free) return std::vector<std::optional<std::size_t>>(crack.points.size());
-  std::vector<char> known;
-  for (const FrontPoint& point : crack.points)
-    known.push_back(fracture.history().sample(crack, point).has_value());
-  return nearest_before_ends(point_chains(crack), known);
-}
-
 FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
   if (fields_ == Fields::free) return nullptr;
   if (body_ != fracture.shared_body()) {
@@ -75,19 +64,20 @@ void SampleRecorder::on_opening(const Fracture& fracture) {
   FrontSurroundings* around = surroundings(fracture);
   if (around) around->measure(crack, fracture.load(), fracture.loads());
   const std::map<NodeId, std::size_t> nearest = nearest_points(crack);
-  const std::vector<std::optional<std::size_t>> neighbour = neighbours_of_new_points(fracture);
+  const std::vector<FrontPast> pasts = front_pasts(crack, fracture.history());
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
-    const FrontPoint &point = crack.points[i], &past = neighbour[i] ? crack.points[*neighbour[i]] : point;
-    const auto chosen = nearest.find(past.correlation);
-    if (chosen == nearest.end() || !(neighbour[i] || chosen->second == i)) continue;
-    auto sample = fracture.history().sample(crack, point, past);
+    const FrontPoint& point = crack.points[i];
+    const FrontPast& past = pasts[i];
+    if (past.nodes.empty() || !(past.own ? nearest.at(point.correlation) == i : around != nullptr)) continue;
+    const NodeId old = past.nodes[0];
+    auto sample = fracture.history().sample(crack, point, old);
     const FrontOpening& now = fracture.openings()[i];
-    if (!sample || (neighbour[i] ? now.intensity : now.opening).isZero(0)) continue;
-    const FrontHistory::Entry* before = fracture.history().find(past.correlation);
+    if (!sample || (past.own ? now.opening : now.intensity).isZero(0)) continue;
+    const FrontHistory::Entry* before = fracture.history().find(old);
     if (before->seen != crack.sheet.frame - 1) continue;
-    if (!neighbour[i]) sample->opening = in_frame(before->frame, now.opening);
+    if (past.own) sample->opening = in_frame(before->frame, now.opening);
     sample->driving_after = now.intensity;
-    if (!around || around->complete(crack, i, past.correlation, *sample)) samples_.add(*sample);
+    if (!around || around->complete(crack, i, old, *sample)) samples_.add(*sample);
   }
   if (around) around->remember(crack, fracture.openings());
 }

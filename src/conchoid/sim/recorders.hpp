@@ -44,7 +44,6 @@ class SampleRecorder : public FractureObserver {
 
  private:
   FrontSurroundings* surroundings(const Fracture& fracture);
-  std::vector<std::optional<std::size_t>> neighbours_of_new_points(const Fracture& fracture) const;
 
   Fields fields_;
   std::shared_ptr<const PreparedBody> body_;  // that the surroundings are of
