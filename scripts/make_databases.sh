@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 conchoid=${1:-build/conchoid}
 work=${2:-build/databases-work}
 mkdir -p "$work"
-for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cylinder-layers cylinder-grains bar edge-crack armadillo; do
+for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cylinder-layers cylinder-grains bar edge-crack edge-crack-across edge-crack-out armadillo; do
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
 # More runs of the same classes bring trees nothing but size (docs/prediction.md).
@@ -19,13 +19,13 @@ unseen() {
   sed -e "s/^runs = .*/runs = $2/" -e 's/^seed = .*/seed = 99/' -e "s|^mesh = \"|&$PWD/databases/|" "databases/$1.toml" > "$work/$1-unseen.toml"
   "$conchoid" database generate "$work/$1-unseen.toml" --out "$work/$1-unseen.h5" --resume
 }
-for name in cube cylinder bar edge-crack; do unseen "$name" 60; done
+for name in cube cylinder bar edge-crack edge-crack-across edge-crack-out; do unseen "$name" 60; done
 unseen armadillo 24
 unseen world 150
 
 for name in cube cylinder bar edge-crack armadillo; do
   set -- "$work/$name.h5"
-  for more in tough layers grains; do
+  for more in tough layers grains across out; do
     if [ -e "databases/$name-$more.toml" ]; then set -- "$@" "$work/$name-$more.h5"; fi
   done
   "$conchoid" forest train "$@" --features versatile --trees 25 --depth 12 --leaf 12 --out "$work/$name.forest"
@@ -38,9 +38,12 @@ set -- "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
 "$conchoid" forest train "$work/world-large.h5" "$@" --features versatile --model network --out "$work/versatile.network"
 
 for name in cube cylinder bar edge-crack armadillo versatile; do
-  unseen=$work/$name-unseen.h5
-  if [ $name = versatile ]; then unseen=$work/world-unseen.h5; fi
+  case $name in
+    versatile) set -- "$work/world-unseen.h5" ;;
+    edge-crack) set -- "$work"/edge-crack-unseen.h5 "$work"/edge-crack-across-unseen.h5 "$work"/edge-crack-out-unseen.h5 ;;
+    *) set -- "$work/$name-unseen.h5" ;;
+  esac
   for kind in forest boosted network; do
-    "$conchoid" forest calibrate "$work/$name.$kind" "$unseen" --out "databases/$name.$kind"
+    "$conchoid" forest calibrate "$work/$name.$kind" "$@" --out "databases/$name.$kind"
   done
 done

@@ -48,6 +48,19 @@ TEST(FrontPasts, APointComesFromItsCorrelationNode) {
   }
 }
 
+TEST(FrontPasts, OfTwoThatComeFromOneNodeTheNearerIsIt) {
+  CrackState crack = crack_with_four_corners();
+  crack.points[1].correlation = crack.points[0].correlation;
+  crack.points[1].distance = 1.1 * crack.points[0].distance;
+  const auto pasts = front_pasts(crack, history_of(crack, {0}));
+  for (const std::size_t i : {0u, 1u}) {
+    EXPECT_TRUE(pasts[i].correlation);
+    EXPECT_EQ(pasts[i].nodes, std::vector<NodeId>{crack.points[0].correlation});
+  }
+  EXPECT_TRUE(pasts[0].own);
+  EXPECT_FALSE(pasts[1].own);
+}
+
 TEST(FrontPasts, OneWithoutTakesThatOfItsNearestNeighboursOnItsFront) {
   const CrackState crack = crack_with_four_corners();
   const PointChain chain = point_chains(crack)[0];

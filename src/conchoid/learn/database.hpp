@@ -54,7 +54,7 @@ struct TrainingChoice {
   bool end_game = false;
   std::set<std::string> only;     ///< classes of bodies; empty: all
   std::set<std::string> without;  ///< classes that are held out
-  /// Nodes that are new at the end of a front, too. The published method has no past for them.
+  /// Nodes that are new on a front, too (is_new_on_front()). The published method has no past for them.
   bool new_nodes = false;
 
   bool takes(const std::string& body_class) const {

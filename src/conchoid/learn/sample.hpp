@@ -70,8 +70,8 @@ inline bool is_end_game(const Sample& s) {
   return s.opening.norm() >= kLargestOpening * s.resolution;
 }
 
-/// Whether its node is new at the end of a front: what its neighbour was in the frame before stands for it, it has no opening of
-/// its own to learn, and `node` is itself.
+/// Whether its node is new on the front, put between others or come into the body from outside: another one stands for what it
+/// was in the frame before (sim/front_pasts.hpp), it has no opening of its own to learn, and `node` is itself.
 inline bool is_new_on_front(const Sample& s) {
   return s.opening.isZero(0);
 }

@@ -16,7 +16,7 @@ std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontP
   if (!before || !(before->distance > 0)) return {};
   Sample s;
   s.frame = crack.sheet.frame + 1;
-  s.node = old == point.correlation ? old.value : point.node.value;
+  s.node = old.value;
   s.front = point.front;
   s.K = before->intensity;
   s.toughness = material_.toughness * toughness_.at(crack.sheet.mesh.positions[old]).value;

@@ -1,9 +1,22 @@
 #include "conchoid/sim/front_pasts.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace conchoid {
 namespace {
+
+// Per correlation node the nearest point of its front.
+std::map<NodeId, std::size_t> nearest_points(const CrackState& crack) {
+  std::map<NodeId, std::size_t> nearest;
+  for (std::size_t i = 0; i < crack.points.size(); ++i) {
+    const FrontPoint& point = crack.points[i];
+    if (!point.correlation.valid() || !(point.distance > 0)) continue;
+    const auto [entry, is_new] = nearest.try_emplace(point.correlation, i);
+    if (!is_new && point.distance < crack.points[entry->second].distance) entry->second = i;
+  }
+  return nearest;
+}
 
 std::vector<NodeId> nearest_in_space(const CrackState& crack, const FrontHistory& history, const Vec3& x) {
   const auto& positions = crack.sheet.mesh.positions;
@@ -18,19 +31,21 @@ std::vector<NodeId> nearest_in_space(const CrackState& crack, const FrontHistory
 
 std::vector<FrontPast> front_pasts(const CrackState& crack, const FrontHistory& history) {
   std::vector<FrontPast> pasts(crack.points.size());
+  const std::map<NodeId, std::size_t> nearest_to = nearest_points(crack);
   std::vector<char> known;
   for (std::size_t i = 0; i < pasts.size(); ++i) {
     const NodeId old = crack.points[i].correlation;
-    pasts[i].own = history.sample(crack, crack.points[i], old).has_value();
-    known.push_back(pasts[i].own &&
+    pasts[i].correlation = history.sample(crack, crack.points[i], old).has_value();
+    pasts[i].own = pasts[i].correlation && nearest_to.at(old) == i;
+    if (pasts[i].correlation) pasts[i].nodes = {old};
+    known.push_back(pasts[i].correlation &&
                     history.find(crack.points[i].node) == nullptr);  // what stays comes from farther back
-    if (pasts[i].own) pasts[i].nodes = {old};
   }
   const std::vector<PointChain> chains = point_chains(crack);
   const std::vector<std::vector<std::size_t>> nearest = nearest_known(chains, known);
   for (const PointChain& chain : chains)
     for (const std::size_t i : chain.points) {
-      if (pasts[i].own) continue;
+      if (pasts[i].correlation) continue;
       for (const std::size_t neighbour : nearest[i])
         pasts[i].nodes.push_back(crack.points[neighbour].correlation);
       const NodeId node = crack.points[i].node;

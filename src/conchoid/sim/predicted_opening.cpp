@@ -195,7 +195,7 @@ std::vector<FrontOpening> OpeningByPredictor::predict(const CrackState& crack) c
       continue;
     }
     out[i].known = false;
-    if (!pasts[i].own && !surroundings_) continue;
+    if (!pasts[i].correlation && !surroundings_) continue;
     for (const NodeId old : pasts[i].nodes)
       if (auto sample = history().sample(crack, point, old)) {
         if (surroundings_) surroundings_->complete(crack, i, old, *sample);

@@ -1,7 +1,6 @@
 #include "conchoid/sim/recorders.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "conchoid/bem/surface_stress.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
@@ -33,22 +32,6 @@ void GrowthRecorder::on_opening(const Fracture& fracture) {
     largest_ = std::max(largest_, fracture.crack().sheet.travelled[point.node]);
 }
 
-namespace {
-
-// Per correlation node the nearest point of its front.
-std::map<NodeId, std::size_t> nearest_points(const CrackState& crack) {
-  std::map<NodeId, std::size_t> nearest;
-  for (std::size_t i = 0; i < crack.points.size(); ++i) {
-    const FrontPoint& point = crack.points[i];
-    if (!point.correlation.valid() || !(point.distance > 0)) continue;
-    const auto [entry, is_new] = nearest.try_emplace(point.correlation, i);
-    if (!is_new && point.distance < crack.points[entry->second].distance) entry->second = i;
-  }
-  return nearest;
-}
-
-}  // namespace
-
 FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
   if (fields_ == Fields::free) return nullptr;
   if (body_ != fracture.shared_body()) {
@@ -63,19 +46,21 @@ void SampleRecorder::on_opening(const Fracture& fracture) {
   const CrackState& crack = fracture.crack();
   FrontSurroundings* around = surroundings(fracture);
   if (around) around->measure(crack, fracture.load(), fracture.loads());
-  const std::map<NodeId, std::size_t> nearest = nearest_points(crack);
   const std::vector<FrontPast> pasts = front_pasts(crack, fracture.history());
   for (std::size_t i = 0; i < crack.points.size(); ++i) {
     const FrontPoint& point = crack.points[i];
     const FrontPast& past = pasts[i];
-    if (past.nodes.empty() || !(past.own ? nearest.at(point.correlation) == i : around != nullptr)) continue;
+    if (past.nodes.empty() || !(past.own || around)) continue;
     const NodeId old = past.nodes[0];
     auto sample = fracture.history().sample(crack, point, old);
     const FrontOpening& now = fracture.openings()[i];
     if (!sample || (past.own ? now.opening : now.intensity).isZero(0)) continue;
     const FrontHistory::Entry* before = fracture.history().find(old);
     if (before->seen != crack.sheet.frame - 1) continue;
-    if (past.own) sample->opening = in_frame(before->frame, now.opening);
+    if (past.own)
+      sample->opening = in_frame(before->frame, now.opening);
+    else
+      sample->node = point.node.value;
     sample->driving_after = now.intensity;
     if (!around || around->complete(crack, i, old, *sample)) samples_.add(*sample);
   }
