@@ -44,9 +44,9 @@ std::string info_text(const DatabaseInfo& info) {
       "   ",
       fmt::join(info.header.models, ", "), info.runs, info.header.planned_here(),
       info.complete ? "" : " (incomplete: go on with database generate --resume)", info.excluded_runs,
-      info.samples, info.training_samples, info.end_game_samples, info.header.resolution,
-      info.header.material.youngs_modulus, info.header.material.poisson_ratio, info.header.material.toughness,
-      info.mean_frames);
+      info.samples, info.training_samples, info.end_game_samples + info.new_node_samples,
+      info.header.resolution, info.header.material.youngs_modulus, info.header.material.poisson_ratio,
+      info.header.material.toughness, info.mean_frames);
   for (const auto& [stop, count] : info.stops)
     text += fmt::format(" {} {}", count, stop);
   for (const auto& [reason, count] : info.exclusions)

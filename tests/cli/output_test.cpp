@@ -276,8 +276,9 @@ TEST(Prediction, FromSpecificationToPredictedRun) {
     EXPECT_EQ(trained["model"], model);
     EXPECT_EQ(json_of(folder, {"forest", "info", model}), trained);
     const json accuracy = json_of(folder, {"forest", "evaluate", model, "--samples", "cube.h5"});
-    EXPECT_EQ(accuracy["samples"].get<int>(),
-              info["training_samples"].get<int>() - info["end_game_samples"].get<int>());
+    EXPECT_EQ(accuracy["samples"].get<int>(), info["training_samples"].get<int>() -
+                                                  info["end_game_samples"].get<int>() -
+                                                  info["new_node_samples"].get<int>());
     for (const char* mode : {"I", "II", "III"}) {
       EXPECT_TRUE(accuracy["rmse"].contains(mode));
       EXPECT_TRUE(accuracy["r2"].contains(mode));

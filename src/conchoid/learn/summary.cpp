@@ -56,9 +56,11 @@ DatabaseInfo database_info(const Database& database) {
     info.mean_frames += run.frames / static_cast<double>(info.runs);
     info.wall_seconds += run.wall_seconds;
   }
-  TrainingChoice without_end_game;
-  without_end_game.new_nodes = true;
-  info.end_game_samples = info.training_samples - database.training_samples(without_end_game).size();
+  TrainingChoice published, with_new_nodes;
+  with_new_nodes.new_nodes = true;
+  const std::size_t with_them = database.training_samples(with_new_nodes).size();
+  info.end_game_samples = info.training_samples - with_them;
+  info.new_node_samples = with_them - database.training_samples(published).size();
   return info;
 }
 
@@ -105,6 +107,7 @@ std::string json_text(const DatabaseInfo& info) {
                {"excluded_runs", info.excluded_runs},
                {"training_samples", info.training_samples},
                {"end_game_samples", info.end_game_samples},
+               {"new_node_samples", info.new_node_samples},
                {"stops", info.stops},
                {"exclusions", info.exclusions},
                {"mean_frames", info.mean_frames},

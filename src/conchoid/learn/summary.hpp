@@ -13,8 +13,9 @@ namespace conchoid {
 struct DatabaseInfo {
   DatabaseHeader header;
   std::size_t runs = 0, samples = 0, excluded_runs = 0, training_samples = 0;
-  std::size_t end_game_samples =
-      0;  ///< of the training samples: openings that the published feature sets leave out
+  // Of the training samples, what the published feature sets leave out:
+  std::size_t end_game_samples = 0;  ///< is_end_game()
+  std::size_t new_node_samples = 0;  ///< is_new_on_front()
   bool complete = false;
   std::vector<std::string> features;         ///< names of the recorded quantities
   std::vector<std::string> feature_sets;     ///< sets that can be computed from them
