@@ -78,7 +78,7 @@ std::vector<std::string> database_row(Workshop& workshop, const NamedDatabase& n
   const TrainedForest& forest = workshop.forest(named.text, named.forest);
   return {named.title,
           fmt::format("{}", info.runs),
-          fmt::format("{}", info.training_samples),
+          fmt::format("{}", info.training_samples - info.new_node_samples),  // as published
           fmt::format("({},{})", named.forest.trees, named.forest.depth),
           number_text(info.wall_seconds),
           number_text(forest.seconds),
