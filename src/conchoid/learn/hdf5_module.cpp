@@ -226,6 +226,15 @@ void write_samples(const H5::Group& group, const SampleSet& samples) {
   write_column(group, "frame", samples.frame());
   write_column(group, "node", samples.node());
   write_column(group, "front", samples.front());
+  std::vector<std::int32_t>
+      is_new;  // for those who read the file with other programs; ours sees it by the opening
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    is_new.push_back(is_new_on_front(samples[i]));
+  write_attribute(
+      write_column(group, "new_on_front", is_new), "about",
+      std::string(
+          "1: the node was not on a front inside the body before; another one stands for what it was, and "
+          "it has no opening"));
   for (std::size_t f = 0; f < SampleSet::field_count; ++f) {
     const SampleField& field = SampleSet::fields()[f];
     write_attribute(write_column(group, std::string(field.name), samples.field(f)), "unit",
