@@ -38,11 +38,7 @@ set -- "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
 "$conchoid" forest train "$work/world-large.h5" "$@" --features versatile --model network --out "$work/versatile.network"
 
 for name in cube cylinder bar edge-crack armadillo versatile; do
-  case $name in
-    versatile) set -- "$work/world-unseen.h5" ;;
-    edge-crack) set -- "$work"/edge-crack-unseen.h5 "$work"/edge-crack-across-unseen.h5 "$work"/edge-crack-out-unseen.h5 ;;
-    *) set -- "$work/$name-unseen.h5" ;;
-  esac
+  if [ $name = versatile ]; then set -- "$work/world-unseen.h5"; else set -- "$work/$name"*-unseen.h5; fi
   for kind in forest boosted network; do
     "$conchoid" forest calibrate "$work/$name.$kind" "$@" --out "databases/$name.$kind"
   done

@@ -9,11 +9,16 @@ const FrontHistory::Entry* FrontHistory::find(NodeId node) const {
   return found == entries_.end() ? nullptr : &found->second;
 }
 
+bool FrontHistory::knows(const FrontPoint& point, NodeId old) const {
+  if (!old.valid() || !(point.distance > 0)) return false;
+  const Entry* before = find(old);
+  return before && before->distance > 0;
+}
+
 std::optional<Sample> FrontHistory::sample(const CrackState& crack, const FrontPoint& point,
                                            NodeId old) const {
-  if (!old.valid() || !(point.distance > 0)) return {};
+  if (!knows(point, old)) return {};
   const Entry* before = find(old);
-  if (!before || !(before->distance > 0)) return {};
   Sample s;
   s.frame = crack.sheet.frame + 1;
   s.node = old.value;

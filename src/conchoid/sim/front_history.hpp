@@ -21,8 +21,10 @@ class FrontHistory {
   FrontHistory(const MaterialSpec& material, const MaterialField& toughness, double resolution)
       : material_(material), toughness_(toughness), resolution_(resolution) {}
 
+  /// Whether `old` was on a front before, so that a point can come from it.
+  bool knows(const FrontPoint& point, NodeId old) const;
   /// The sample of a point that comes from the node `old`, its correlation node or what stands for that (front_pasts.hpp); its
-  /// labels are left at zero. None where that was not on a front before.
+  /// labels are left at zero. None where it is not known.
   std::optional<Sample> sample(const CrackState& crack, const FrontPoint& point, NodeId old) const;
   /// What is remembered of a node.
   struct Entry {

@@ -35,7 +35,7 @@ std::vector<FrontPast> front_pasts(const CrackState& crack, const FrontHistory& 
   std::vector<char> known;
   for (std::size_t i = 0; i < pasts.size(); ++i) {
     const NodeId old = crack.points[i].correlation;
-    pasts[i].correlation = history.sample(crack, crack.points[i], old).has_value();
+    pasts[i].correlation = history.knows(crack.points[i], old);
     pasts[i].own = pasts[i].correlation && nearest_to.at(old) == i;
     if (pasts[i].correlation) pasts[i].nodes = {old};
     known.push_back(pasts[i].correlation &&

@@ -12,9 +12,8 @@ struct FrontPast {
   /// Its correlation node. Else, as it was not on a front inside the body: those of the nearest points along its connected front that
   /// come from one, one to each side; else the node nearest in space that was on a front last. Empty where nothing was.
   std::vector<NodeId> nodes;
-  bool correlation = false;  ///< that of its correlation node
-  bool own =
-      false;  ///< and of no nearer point: that node has become this one, which was not put between others
+  bool correlation = false;  ///< it is that of its correlation node
+  bool own = false;          ///< and no other point is nearer to that: it was not put between others
 };
 
 /// One for each point of the crack.
