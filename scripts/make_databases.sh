@@ -11,7 +11,7 @@ for name in cube cube-tough cube-layers cube-grains cylinder cylinder-tough cyli
   "$conchoid" database generate "databases/$name.toml" --out "$work/$name.h5" --resume
 done
 # More runs of the same classes bring trees nothing but size (docs/prediction.md).
-"$conchoid" database generate databases/world.toml --runs 2100 --out "$work/world.h5" --resume
+"$conchoid" database generate databases/world.toml --runs 2452 --out "$work/world.h5" --resume
 "$conchoid" database generate databases/world.toml --out "$work/world-large.h5" --resume
 
 # Runs that none has seen, to find by what the spread of each is worth: NAME RUNS
@@ -33,7 +33,7 @@ for name in cube cylinder bar edge-crack armadillo; do
   "$conchoid" forest train "$@" --features versatile --model network --out "$work/$name.network"
 done
 set -- "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
-"$conchoid" forest train "$work/world.h5" "$@" --features versatile --trees 12 --depth 18 --leaf 8 --out "$work/versatile.forest"
+"$conchoid" forest train "$work/world.h5" "$@" --features versatile --trees 12 --depth 18 --leaf 10 --out "$work/versatile.forest"
 "$conchoid" forest train "$work/world.h5" "$@" --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
 "$conchoid" forest train "$work/world-large.h5" "$@" --features versatile --model network --out "$work/versatile.network"
 

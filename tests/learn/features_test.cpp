@@ -135,6 +135,7 @@ TEST(Features, SpreadIsTheSizeOfAOneDeviationStep) {
 TEST(Features, NamesAndNumbersAgree) {
   for (const FeatureSet set : all_feature_sets()) {
     EXPECT_EQ(feature_names(set).size(), feature_count(set));
+    EXPECT_EQ(label_names(set).size(), 3);
     EXPECT_EQ(feature_set_from_name(name(set)), set);
   }
   try {

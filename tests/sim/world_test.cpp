@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numeric>
 #include <set>
+#include <vector>
 
+#include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/interrupt.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/sim/fracture.hpp"
 #include "conchoid/sim/generate.hpp"
@@ -135,6 +141,28 @@ TEST(World, WhatDoesNotGoWithItIsRefused) {
   EXPECT_NE(error_of(world + "magnitude = [1.0, 2.0]\n").find("database.magnitude does not go with [world]"),
             std::string::npos);
   EXPECT_NE(error_of("[world]\nclasses = ['teapot']\n[database]\n").find("world.toml:2"), std::string::npos);
+}
+
+// A database that is closed early holds the first runs, whatever the number of threads, not some of each thread's share.
+TEST(World, RunsAreBegunInTheirOrder) {
+  const DatabaseSpec spec = parse(
+      "[world]\nclasses = [\"box\"]\nruns_per_body = 1\nelements = 60\n"
+      "[database]\nruns = 400\nseed = 5\nframes = 2\n");
+  std::vector<std::int32_t> runs(400);
+  std::iota(runs.begin(), runs.end(), 0);
+  for (const int threads : {1, 2}) {
+    ExecutionContext context(threads);
+    std::mutex mutex;
+    std::vector<std::int32_t> kept;
+    const auto keep = [&](const RunPart& part) {
+      const std::scoped_lock lock(mutex);
+      kept.push_back(part.record.id);
+      if (kept.size() == 5) context.request_stop();
+    };
+    EXPECT_THROW(context.run([&] { make_runs(spec, runs, keep); }), Interrupted);
+    ASSERT_GE(kept.size(), 5u);
+    EXPECT_LT(*std::max_element(kept.begin(), kept.end()), 20) << threads;
+  }
 }
 
 }  // namespace

@@ -223,6 +223,12 @@ Vec3 driving_spread(const Sample& s, FeatureSet set, const Vec3& label, const Ve
   return set == FeatureSet::versatile ? versatile_driving_spread(s, label, label_spread) : Vec3::Zero();
 }
 
+std::vector<std::string> label_names(FeatureSet set) {
+  if (set == FeatureSet::versatile) return versatile_label_names();
+  if (is_paper(set)) return {"du_I/r_bar", "du_II/r_bar", "du_III/r_bar"};
+  return {"dK_I/S", "|dK_II|/S", "|dK_III|/S"};
+}
+
 Vec3 label(const Sample& s, FeatureSet set) {
   if (set == FeatureSet::versatile) return versatile_label(s);
   if (is_paper(set)) return s.opening / s.resolution;

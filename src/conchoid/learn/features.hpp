@@ -57,6 +57,8 @@ void require_recorded(FeatureSet set, const SampleSet& samples);
 
 /// Writes the features of one sample to row (feature_count(set) numbers).
 void features(const Sample& sample, FeatureSet set, std::span<double> row);
+/// What the three labels are called; files tell them, so that none is read with other labels than it was trained on.
+std::vector<std::string> label_names(FeatureSet set);
 /// The three labels, modes I, II, III.
 Vec3 label(const Sample& sample, FeatureSet set);
 /// Number of images of a row under the signs of its quantities that a regressor is trained on and asked for; 1: the row

@@ -94,6 +94,11 @@ TrainingRecord record_from(const json& d) {
   record.features = feature_set_from_name(d.at("features").get<std::string>());
   if (d.at("feature_names").get<std::vector<std::string>>() != feature_names(record.features))
     throw InputError("feature set " + std::string(name(record.features)) + " has changed since the training");
+  // Files that do not name their labels are from before those of `versatile` became what they are.
+  if (d.contains("label_names") ? d.at("label_names") != json(label_names(record.features))
+                                : record.features == FeatureSet::versatile)
+    throw InputError("what feature set " + std::string(name(record.features)) +
+                     " predicts has changed since the training");
   for (const json& r : d.at("ranges"))
     record.ranges.push_back(
         {r.at("minimum"), r.at("maximum"), r.at("quantiles").get<std::array<double, 7>>()});
@@ -146,6 +151,7 @@ std::string regressor_bytes(std::string_view kind_name, const TrainingRecord& re
   description.update({{"format", "conchoid " + std::string(kind_name)},
                       {"features", name(record.features)},
                       {"feature_names", feature_names(record.features)},
+                      {"label_names", label_names(record.features)},
                       {"ranges", to_json(record.ranges)},
                       {"label_mean", to_json(record.label_mean)},
                       {"label_scale", to_json(record.label_scale)},

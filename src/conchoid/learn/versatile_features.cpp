@@ -6,16 +6,13 @@
 #include <numbers>
 
 #include "conchoid/crack/intensity/stress_intensity.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 
 namespace conchoid {
 namespace {
 
 constexpr double kLeastGrowth = -4, kMostGrowth = 6;  // of ln S, in one frame
 constexpr double kMostNetGrowth = 3;                  // of ln of what the ligament carries
-// Of w_II as a label: beyond it, it is mostly error of K at single points, at mouths and last ligaments, which least squares
-// would make everything of. w_III is all there is for some frames where a crack is torn.
-constexpr double kMostShear = 0.5;
-
 // What reversing the normal (first) and mirroring (second) do to a quantity.
 struct Parity {
   int reversed = 1, mirrored = 1;
@@ -112,6 +109,18 @@ double size(const Sample& s, const Vec3& K) {
 // S′.
 double grown_size(double before, const Vec3& label) {
   return before * std::exp(std::clamp(label[0], kLeastGrowth, kMostGrowth));
+}
+
+// w_II that makes a front turn by −2 × half, and how fast it grows with half: K_II (3 cos θ − 1) + K_I sin θ = 0.
+struct Shear {
+  double share = 0, rate = 1;
+};
+
+Shear shear_from(double half) {
+  static const double most = std::acos(1.0 / 3);
+  const double angle = std::clamp(2 * half, -most, most), c = std::cos(angle), s = std::sin(angle);
+  const double opening = 3 * c - 1, length = std::hypot(s, opening);
+  return {s / length, 2 * opening * (opening * c + 3 * s * s) / (length * length * length)};
 }
 
 // A vector over a size that may be zero.
@@ -247,12 +256,16 @@ void versatile_image(int image, std::span<double> row) {
     row[c] *= features_table[c].parity.sign(image);
 }
 
+std::vector<std::string> versatile_label_names() {
+  return {"ln S'/S", "-theta'/2", "w_III'"};
+}
+
 Vec3 versatile_label(const Sample& s) {
   const double before = size(s, s.driving), after = size(s, s.driving_after);
   if (!(before > 0 && after > 0)) return Vec3::Zero();
-  const Vec3 w = scaled(s, s.driving_after) / after;
-  return {std::clamp(std::log(after / before), kLeastGrowth, kMostGrowth),
-          std::clamp(w[1], -kMostShear, kMostShear), w[2]};
+  const double turn = kink_angle(s.driving_after, {s.youngs_modulus, s.poisson_ratio});
+  return {std::clamp(std::log(after / before), kLeastGrowth, kMostGrowth), -turn / 2,
+          scaled(s, s.driving_after)[2] / after};
 }
 
 Vec3 versatile_label_image(int image, const Vec3& label) {
@@ -265,14 +278,15 @@ Vec3 versatile_label_image(int image, const Vec3& label) {
 Vec3 versatile_driving(const Sample& s, const Vec3& label) {
   const double before = size(s, s.driving);
   if (!(before > 0)) return Vec3::Zero();
-  Vec3 w(0, std::clamp(label[1], -kMostShear, kMostShear), std::clamp(label[2], -1.0, 1.0));
+  Vec3 w(0, shear_from(label[1]).share, std::clamp(label[2], -1.0, 1.0));
   w[0] = std::sqrt(std::max(0.0, 1 - w[1] * w[1] - w[2] * w[2]));
   w.normalize();
   return unscaled(s, grown_size(before, label) * w);
 }
 
 Vec3 versatile_driving_spread(const Sample& s, const Vec3& label, const Vec3& label_spread) {
-  return unscaled(s, grown_size(size(s, s.driving), label) * Vec3(0, label_spread[1], label_spread[2]));
+  const double shear = std::abs(shear_from(label[1]).rate) * label_spread[1];
+  return unscaled(s, grown_size(size(s, s.driving), label) * Vec3(0, shear, label_spread[2]));
 }
 
 Vec3 versatile_opening(const Sample& s, const Vec3& driving) {

@@ -24,8 +24,9 @@ namespace conchoid {
 // in the mean of both sides, and how lopsided they are, d/d⁻ − d/d⁺ with d the nearer one. These tell which side of the crack
 // is the weaker beam: cracks turn to it. Nothing tells the size of the load or K_c, so both may be anything.
 //
-// Label: ln(S′/S), w_II′ within ± 0.5, where nearly all are that are more than error, w_III′. Nothing learned is
-// zero: the front goes straight on, opened by the K that it had. (Learning what "K as it was in the front's own frame"
+// Label: ln(S′/S), −θ′/2, w_III′, with θ′ the angle by which K′ turns the front (kink_angle(): of w_II′ alone, as S² holds K_III;
+// −θ/2 ≈ w_II where that is small, 0.62 where it is 1, so that K of a closed crack, which scatters, does not count for more than it
+// turns). Nothing learned is zero: the front goes straight on, opened by the K that it had. (Learning what "K as it was in the front's own frame"
 // misses is no better, and worse on most classes of bodies left out of training: K_II does not last.)
 //
 // Signs: reversing the crack normal, and mirroring the body across the plane of e1 and e2, each negate some of the features
@@ -38,6 +39,7 @@ std::vector<std::string> versatile_feature_names();
 void versatile_features(const Sample& sample, std::span<double> row);
 /// Turns a row into that of image 0 … 3: bit 0 reverses the normal, bit 1 mirrors. Its own inverse.
 void versatile_image(int image, std::span<double> row);
+std::vector<std::string> versatile_label_names();
 Vec3 versatile_label(const Sample& sample);
 Vec3 versatile_label_image(int image, const Vec3& label);
 /// K that drives the front of the frame after, in its own frame [Pa√m]: inverse of the label.

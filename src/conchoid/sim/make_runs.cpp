@@ -1,5 +1,6 @@
 #include "conchoid/sim/make_runs.hpp"
 
+#include <atomic>
 #include <map>
 #include <optional>
 
@@ -122,6 +123,13 @@ class WorldRuns {
   std::optional<ComputationError> failure_;
 };
 
+/// Tasks begun in their order, whichever thread takes them: a database that is closed early holds the first runs, not
+/// some of each thread's share.
+void parallel_in_order(std::size_t n, const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next{0};
+  parallel_for(n, 1, [&](std::size_t, std::size_t) { task(next++); });
+}
+
 }  // namespace
 
 PreparedRun prepare_run(const DatabaseSpec& spec, const std::shared_ptr<const PreparedBody>& body,
@@ -140,7 +148,7 @@ void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
   if (runs.empty()) return;
   if (!spec.world) {
     const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
-    parallel_for(runs.size(), 1, [&](std::size_t i, std::size_t) {
+    parallel_in_order(runs.size(), [&](std::size_t i) {
       throw_if_interrupted();
       keep(computed(spec, under_drawn_load(spec, body, runs[i])));
     });
@@ -151,7 +159,7 @@ void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
     of_body[run / spec.world->runs_per_body].push_back(run);
   const std::vector<std::pair<std::int32_t, std::vector<std::int32_t>>> bodies(of_body.begin(),
                                                                                of_body.end());
-  parallel_for(bodies.size(), 1, [&](std::size_t b, std::size_t) {
+  parallel_in_order(bodies.size(), [&](std::size_t b) {
     throw_if_interrupted();
     const WorldRuns of_this(spec, bodies[b].first);
     for (const std::int32_t run : bodies[b].second) {
