@@ -41,6 +41,18 @@ TEST(KinkAngle, OpeningAndTearingGoStraightOn) {
   EXPECT_NEAR(kink_angle({1e6, 1e-6, 0}, kSteel), -2e-12, 1e-18);
 }
 
+TEST(KinkAngle, HasAnInverse) {
+  for (double angle = -1.2; angle <= 1.2; angle += 0.1) {
+    const auto [opened, slid] = kinking_intensity(angle);
+    EXPECT_NEAR(std::hypot(opened, slid), 1, 1e-15);
+    EXPECT_NEAR(kink_angle({opened, slid, 0}, kSteel), angle, 1e-12);
+  }
+  for (const double beyond : {1.3, 3.0}) {
+    EXPECT_EQ(kinking_intensity(beyond)[1], -1);
+    EXPECT_EQ(kinking_intensity(-beyond)[1], 1);
+  }
+}
+
 TEST(KinkAngle, TearingDampsTheKink) {
   EXPECT_LT(std::abs(kink_angle({1, 1, 2}, kSteel)), std::abs(kink_angle({1, 1, 0}, kSteel)));
   const double together = std::sqrt(1 + 4 / (1 - 0.3));

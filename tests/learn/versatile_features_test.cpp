@@ -7,9 +7,9 @@
 #include <random>
 
 #include "conchoid/core/bytes.hpp"
-#include "conchoid/core/error.hpp"
 #include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/learn/forest.hpp"
+#include "refusal.hpp"
 #include "synthetic.hpp"
 
 namespace conchoid {
@@ -252,13 +252,8 @@ TEST(VersatileFeatures, FilesOfOtherLabelsAreRefused) {
     checksum.put(hash_bytes(bytes));
     return bytes + checksum.bytes();
   };
-  const auto reading = [&](const char* file) -> std::string {
-    try {
-      load_regressor(folder / file);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "accepted";
+  const auto reading = [&](const char* file) {
+    return test::refusal([&] { load_regressor(folder / file); });
   };
   for (const FeatureSet set : {FeatureSet::paper_3, kSet}) {
     RegressionForest::train(random_samples(40), {2, 4, set, 1, 256}).save(folder / "whole");

@@ -111,16 +111,16 @@ double grown_size(double before, const Vec3& label) {
   return before * std::exp(std::clamp(label[0], kLeastGrowth, kMostGrowth));
 }
 
-// w_II that makes a front turn by −2 × half, and how fast it grows with half: K_II (3 cos θ − 1) + K_I sin θ = 0.
-struct Shear {
-  double share = 0, rate = 1;
-};
+// w_II that makes a front turn by −2 × half.
+double shear_from(double half) {
+  return kinking_intensity(-2 * half)[1];
+}
 
-Shear shear_from(double half) {
-  static const double most = std::acos(1.0 / 3);
-  const double angle = std::clamp(2 * half, -most, most), c = std::cos(angle), s = std::sin(angle);
-  const double opening = 3 * c - 1, length = std::hypot(s, opening);
-  return {s / length, 2 * opening * (opening * c + 3 * s * s) / (length * length * length)};
+// How fast that grows with half: dw_II/dθ = −K_I⁺ (K_I⁺ cos θ − 3 K_II sin θ) over the norm of (3 cos θ − 1, sin θ).
+double shear_rate(double half) {
+  const double angle = -2 * half, c = std::cos(angle), s = std::sin(angle);
+  const auto [opened, slid] = kinking_intensity(angle);
+  return 2 * opened * (opened * c - 3 * slid * s) / std::hypot(3 * c - 1, s);
 }
 
 // A vector over a size that may be zero.
@@ -278,14 +278,14 @@ Vec3 versatile_label_image(int image, const Vec3& label) {
 Vec3 versatile_driving(const Sample& s, const Vec3& label) {
   const double before = size(s, s.driving);
   if (!(before > 0)) return Vec3::Zero();
-  Vec3 w(0, shear_from(label[1]).share, std::clamp(label[2], -1.0, 1.0));
+  Vec3 w(0, shear_from(label[1]), std::clamp(label[2], -1.0, 1.0));
   w[0] = std::sqrt(std::max(0.0, 1 - w[1] * w[1] - w[2] * w[2]));
   w.normalize();
   return unscaled(s, grown_size(before, label) * w);
 }
 
 Vec3 versatile_driving_spread(const Sample& s, const Vec3& label, const Vec3& label_spread) {
-  const double shear = std::abs(shear_from(label[1]).rate) * label_spread[1];
+  const double shear = shear_rate(label[1]) * label_spread[1];
   return unscaled(s, grown_size(size(s, s.driving), label) * Vec3(0, shear, label_spread[2]));
 }
 

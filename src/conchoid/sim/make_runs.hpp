@@ -10,9 +10,9 @@
 
 namespace conchoid {
 
-/// Runs of a database, in parallel, without files: begun in their order, each handed on as soon as it is finished. A body is prepared once
-/// for all of its runs. A run that cannot be computed, or whose body cannot be made, is handed on as excluded, with
-/// the message as the reason. Throws Interrupted after Ctrl-C, and InputError for a scene that is wrong.
+/// Runs of a database, in parallel, without files: begun in their order, each handed on as soon as it is finished. A
+/// body is prepared once for all of its runs. A run that cannot be computed, or whose body cannot be made, is handed on
+/// as excluded, with the message as the reason. Throws Interrupted after Ctrl-C, and InputError for a scene that is wrong.
 /// @param keep  may be called from several threads
 void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
                const std::function<void(RunPart)>& keep);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "conchoid/crack/front/front_frames.hpp"
+#include "conchoid/crack/law/criterion.hpp"
 #include "conchoid/sim/crack_sizes.hpp"
 #include "conchoid/sim/front_gaps.hpp"
 
@@ -62,11 +63,10 @@ Vec3 intensity_from_stress(const Mat3& stress, const FrontFrame& frame, double a
   // Turn within the plane of e1 and e2, until e1 cosθ − e2 sinθ is along v.
   const double theta = std::atan2(-v[1], v[0]);
   if (std::cos(theta) <= kShear) return {0, std::copysign(1.0, -theta) * std::abs(K), 0};
-  const double ratio = -std::sin(theta) / (3 * std::cos(theta) - 1);
-  const double opened = K / std::sqrt(1 + ratio * ratio);  // K_I⁺
+  const auto [opened, slid] = kinking_intensity(theta);  // of K_I⁺ and K_II
   const double sine = v[2];
-  return {opened * std::sqrt(std::max(0.0, 1 - sine * sine)), ratio * opened,
-          sine * opened * std::sqrt(1 - poisson_ratio)};
+  return K * Vec3(opened * std::sqrt(std::max(0.0, 1 - sine * sine)), slid,
+                  sine * opened * std::sqrt(1 - poisson_ratio));
 }
 
 StressOpening::StressOpening(const PredictionContext& context)

@@ -34,6 +34,13 @@ double kink_angle(const Vec3& K, const ElasticConstants& m) {
   return stationary_angle(std::sqrt(k[0] * k[0] + k[2] * k[2] / (1 - m.poisson_ratio)), k[1]);
 }
 
+std::array<double, 2> kinking_intensity(double angle) {
+  const double opened = 3 * std::cos(angle) - 1;
+  if (opened <= 0) return {0, std::copysign(1.0, -angle)};
+  const double slid = -std::sin(angle), size = std::hypot(opened, slid);
+  return {opened / size, slid / size};
+}
+
 double hoop_intensity(const Vec3& K, double angle) {
   const double c = std::cos(angle / 2);
   return c * (K[0] * c * c - 1.5 * K[1] * std::sin(angle));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "conchoid/core/vec.hpp"
 #include "conchoid/elastic/constants.hpp"
 
@@ -19,6 +21,10 @@ double effective_intensity(const Vec3& K, const ElasticConstants& m);
 /// towards e1, |θ| ≤ arccos(1/3): the crack turns away from e1 (θ < 0) for K_II > 0.
 /// @return θ [rad]
 double kink_angle(const Vec3& K, const ElasticConstants& m);
+
+/// The K under which a front turns by θ, an inverse of kink_angle(): (K_I⁺, K_II) of size 1, (3 cos θ − 1, −sin θ)
+/// over its norm; pure mode II beyond ± arccos(1/3).
+std::array<double, 2> kinking_intensity(double angle);
 
 /// Hoop intensity at angle θ, σ_θθ √(2πr) = cos(θ/2) ( K_I cos²(θ/2) − 3/2 K_II sin θ ) [Pa·√m].
 double hoop_intensity(const Vec3& K, double angle);
