@@ -6,7 +6,7 @@
     scripts/run_hashes.py build/conchoid --check FILE         compare with a list; exit status 1 on any difference
     scripts/run_hashes.py build/conchoid --close DIR          compare K, openings and positions with the runs kept in DIR
 
-The same compiler and processor give the same bits; another machine may need a list of its own. Takes some minutes.
+The same compiler and C library give the same bits on all processors with AVX2 and FMA (core/blas_kernels.hpp). Takes some minutes.
 """
 import argparse
 import csv

@@ -47,7 +47,7 @@ void add_regressor_argument(CLI::App& command, std::string& file) {
 
 void print(const std::string& text) {
   if (std::puts(text.c_str()) < 0 || std::fflush(stdout) != 0)
-    throw ComputationError("stdout: the result could not be written; is the disk full or the pipe closed?");
+    throw WriteError("stdout: the result could not be written; is the disk full or the pipe closed?");
 }
 
 }  // namespace conchoid

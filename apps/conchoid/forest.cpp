@@ -86,8 +86,8 @@ JoinedSamples chosen_samples(const ForestOptions& options, FeatureSet features, 
       warning(fmt::format("{}: some planned runs are missing; the {} goes by what is there", file, use));
   }
   TrainingChoice choice = options.choice;
-  choice.end_game = learns_end_game(features) && !options.no_end_game;
-  choice.new_nodes = learns_new_nodes(features);
+  choice.end_game = learns_all_samples(features) && !options.no_end_game;
+  choice.new_nodes = learns_all_samples(features);
   for (const auto* classes : {&choice.only, &choice.without})
     require_classes(databases, *classes);
   return join_samples(databases, choice);

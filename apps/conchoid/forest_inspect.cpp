@@ -102,10 +102,10 @@ ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples)
   return out;
 }
 
-// What a regressor of these features learns from.
+// What a regressor of these features learns from and openings tell how well it has.
 SampleSet samples_for(const Regressor& regressor, const std::string& database) {
   TrainingChoice choice;
-  choice.end_game = learns_end_game(regressor.feature_set());
+  choice.end_game = learns_all_samples(regressor.feature_set());
   return read_database(database).training_samples(choice);
 }
 

@@ -8,6 +8,7 @@
 #endif
 
 #include "command.hpp"
+#include "conchoid/core/blas_kernels.hpp"
 #include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/terminal_sink.hpp"
@@ -52,6 +53,7 @@ void keep_freed_memory() {
 
 int run_program(int argc, char** argv) {
   keep_freed_memory();
+  use_common_blas_kernels();
   CLI::App program("Brittle fracture by boundary elements and by prediction. Everything is SI.", "conchoid");
   program.set_version_flag("--version", CONCHOID_VERSION);
   program.footer(

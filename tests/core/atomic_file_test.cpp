@@ -58,13 +58,13 @@ TEST_F(AtomicFileTest, AFolderInTheWayIsRefused) {
   EXPECT_THROW(file.commit(), InputError);
 }
 
-TEST_F(AtomicFileTest, AFullDiskIsAComputationError) {
+TEST_F(AtomicFileTest, AFullDiskIsAWriteError) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   // The temporary file's stream is made to write to a device that is always full.
   AtomicFile file(folder_ / "a.txt");
   std::ofstream full("/dev/full");
   static_cast<std::ofstream&>(file.stream()).swap(full);
   file.stream() << "x";
-  EXPECT_THROW(file.commit(), ComputationError);
+  EXPECT_THROW(file.commit(), WriteError);
   EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
 }

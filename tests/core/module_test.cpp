@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "conchoid/core/error.hpp"
+#include "refusal.hpp"
 
 namespace conchoid {
 namespace {
 
 std::string refusal(const Module& module) {
-  try {
-    module_symbol(module, "anything", "field.vdb: cannot be read");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal([&] { module_symbol(module, "anything", "field.vdb: cannot be read"); });
 }
 
 }  // namespace

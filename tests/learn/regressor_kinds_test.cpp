@@ -7,16 +7,17 @@
 #include <set>
 
 #include "conchoid/core/bytes.hpp"
-#include "conchoid/core/error.hpp"
 #include "conchoid/learn/evaluate.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/summary.hpp"
+#include "refusal.hpp"
 #include "synthetic.hpp"
 
 // What holds for every kind of regressor.
 namespace conchoid {
 namespace {
 
+using test::refusal;
 using test::synthetic_runs;
 using test::TemporaryFolder;
 
@@ -31,15 +32,6 @@ TrainingSettings quick(const RegressorKind& kind, FeatureSet set = FeatureSet::d
 
 std::unique_ptr<Regressor> trained(const RegressorKind& kind, FeatureSet set = FeatureSet::dimensionless) {
   return train_regressor(kind, synthetic_runs(10, 1.1, 0.5), quick(kind, set));
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
 }
 
 void expect_part(const std::string& text, const std::string& part, const std::string& about) {

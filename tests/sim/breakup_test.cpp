@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <set>
 
+#include "conchoid/core/error.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/models.hpp"
 #include "conchoid/sim/piece_scene.hpp"
@@ -62,6 +64,20 @@ TEST(Breakup, ThePartThatIsPulledBreaksAgain) {
   ASSERT_EQ(frames.size(), static_cast<std::size_t>(result.document.frames));
   EXPECT_EQ(*frames.begin(), 1);
   EXPECT_EQ(*frames.rbegin(), result.document.frames);
+}
+
+TEST(Breakup, AFullDiskIsNoFaultOfAPiece) {
+  struct FullDisk : FractureObserver {
+    const PreparedBody* whole = nullptr;
+    void on_opening(const Fracture& fracture) override {
+      if (!whole) whole = &fracture.body();
+      if (&fracture.body() != whole) throw WriteError("the disk is full");
+    }
+  } disk;
+  const Scene scene = test::scene_from_text(cut_cube(1.5e8));
+  Breakup breakup(scene, std::make_shared<const PreparedBody>(prepare(scene)));
+  breakup.add_observer(disk);
+  EXPECT_THROW(breakup.run(40), WriteError);
 }
 
 TEST(Breakup, FacesOfAllPiecesLeadBackToTheBody) {

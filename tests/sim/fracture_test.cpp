@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,30 @@ class Unbreakable : public GrowthLaw {
   double length(double, double, double) const override { return 0; }
   double deflection(double, double, double) const override { return 0; }
 };
+
+/// Solves, but for one frame, of which it says what is wrong.
+class FailsInFrame : public OpeningSource {
+ public:
+  FailsInFrame(BemOpening& bem, int frame) : bem_(bem), frame_(frame) {}
+  std::string name() const override { return "fails"; }
+  std::vector<FrontOpening> open(const CrackState& crack) override {
+    if (--frame_ == 0) throw ComputationError("edges have lost their way");
+    return bem_.open(crack);
+  }
+  bool solved() const override { return true; }
+  bool solves(int) const override { return true; }
+
+ private:
+  BemOpening& bem_;
+  int frame_;
+};
+
+Fracture failing_in(int frame) {
+  const Scene scene = cube();
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  return {body, load_of(scene, *body), scene.run,
+          [frame](BemOpening& bem) { return std::make_unique<FailsInFrame>(bem, frame); }};
+}
 
 class FullDisk : public FractureObserver {
  public:
@@ -130,6 +155,21 @@ TEST(Fracture, AFullDiskIsNoPhysicalOutcome) {
   fracture.step();
   EXPECT_THROW(fracture.step(), ComputationError);
   EXPECT_FALSE(fracture.stop());
+}
+
+TEST(Fracture, ALaterFrameThatCannotBeComputedEndsTheRunAndKeepsTheOnesBefore) {
+  EXPECT_THROW(failing_in(1).step(), ComputationError);
+  Fracture fracture = failing_in(3), good = fracture_of(cube());
+  run_frames(good, 2);
+  fracture.step();
+  fracture.step();
+  const StepReport third = fracture.step();
+  EXPECT_EQ(third.stop, StopReason::singular);
+  ASSERT_EQ(third.warnings.size(), 1u);
+  EXPECT_NE(third.warnings[0].find("frame 3: edges have lost their way"), std::string::npos)
+      << third.warnings[0];
+  EXPECT_EQ(fracture.frame(), 2);
+  EXPECT_EQ(fracture.crack().sheet.mesh.positions, good.crack().sheet.mesh.positions);
 }
 
 TEST(Fracture, AnIntactBodySaysSoAndStaysSo) {

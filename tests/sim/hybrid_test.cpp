@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "conchoid/core/error.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/predicted_opening.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/study/surface_distance.hpp"
+#include "refusal.hpp"
 #include "scenes.hpp"
 
 // Frames predicted as long as the surface stays within a tolerance, and solved elsewhere.
@@ -106,12 +106,7 @@ TEST(Hybrid, RunsWithoutToleranceEstimateNothing) {
 }
 
 std::string refusal(const std::string& method, std::optional<double> tolerance) {
-  try {
-    checked_method(method, nullptr, tolerance);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return test::refusal([&] { checked_method(method, nullptr, tolerance); });
 }
 
 TEST(Hybrid, ToleranceBelongsToItAlone) {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "conchoid/core/error.hpp"
 #include "conchoid/learn/forest.hpp"
 #include "conchoid/learn/regressor_kinds.hpp"
 #include "conchoid/sim/recorders.hpp"
 #include "conchoid/sim/run.hpp"
 #include "conchoid/sim/run_identity.hpp"
+#include "refusal.hpp"
 #include "scenes.hpp"
 
 // Where the opening of a run comes from.
@@ -40,12 +40,7 @@ RegressionForest forest(int depth) {
 }
 
 std::string refusal(const std::string& method, const Regressor* regressor = nullptr) {
-  try {
-    run(method, regressor);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return test::refusal([&] { run(method, regressor); });
 }
 
 void expect_parts(const std::string& text, const std::vector<std::string>& parts) {

@@ -11,6 +11,7 @@
 #include "conchoid/study/experiments/published_scenes.hpp"
 #include "conchoid/study/experiments/reproduce.hpp"
 #include "conchoid/study/experiments/svg_plot.hpp"
+#include "refusal.hpp"
 #include "temporary_folder.hpp"
 
 // The published study: its list, its parts, and an experiment from the beginning to the report.
@@ -18,12 +19,7 @@ namespace conchoid {
 namespace {
 
 std::string refusal(const ReproduceOptions& options) {
-  try {
-    reproduce(options);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return test::refusal([&] { reproduce(options); });
 }
 
 std::size_t count(const std::string& text, const std::string& part) {

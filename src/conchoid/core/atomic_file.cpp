@@ -51,8 +51,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   stream_.close();
   if (!stream_ || !sync_to_disk(temporary_))
-    throw ComputationError(path_.string() + ": writing failed (" + std::strerror(errno) +
-                           "); is the disk full?");
+    throw WriteError(path_.string() + ": writing failed (" + std::strerror(errno) + "); is the disk full?");
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error)

@@ -18,6 +18,13 @@ class ComputationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What was computed could not be written: mostly a full disk. No fault of what is computed next to it, so nobody who copes
+/// with a ComputationError of that takes it for one.
+class WriteError : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
+
 /// The boundary elements of a body and its cracks give no system that can be solved: mostly a piece has come
 /// off or hangs by a ligament too thin to resolve, or a crack runs along the surface mesh. Where earlier
 /// frames are worth having, a run ends here and keeps them.

@@ -206,11 +206,7 @@ Vec3 label_image(FeatureSet set, int image, const Vec3& label) {
   return set == FeatureSet::versatile ? versatile_label_image(image, label) : label;
 }
 
-bool learns_end_game(FeatureSet set) {
-  return set == FeatureSet::versatile;
-}
-
-bool learns_new_nodes(FeatureSet set) {
+bool learns_all_samples(FeatureSet set) {
   return set == FeatureSet::versatile;
 }
 

@@ -67,10 +67,9 @@ int image_count(FeatureSet set);
 /// Turns a row, or a label, into an image of it, and back.
 void apply_image(FeatureSet set, int image, std::span<double> row);
 Vec3 label_image(FeatureSet set, int image, const Vec3& label);
-/// Whether it learns from openings beyond kLargestOpening.
-bool learns_end_game(FeatureSet set);
-/// Whether it learns from nodes that are new on the front (is_new_on_front()).
-bool learns_new_nodes(FeatureSet set);
+/// Whether it learns from all samples: from openings beyond kLargestOpening and nodes that are new on the front
+/// (is_new_on_front()), too, which the published method leaves out.
+bool learns_all_samples(FeatureSet set);
 /// K that drives the front of frame n, in its own frame [Pa√m], where a label tells that; else none.
 std::optional<Vec3> driving_from_label(const Sample& sample, FeatureSet set, const Vec3& label);
 /// Standard deviation of its K_II and K_III at the size that it has [Pa√m], from that of the label; else zero.

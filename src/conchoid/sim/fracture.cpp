@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -114,6 +115,9 @@ struct Fracture::State {
   void compute_openings(StepReport& report);
   std::vector<FrontOpening> open_crack();
   std::vector<FrontStep> decide(StepReport& report);
+  std::vector<FrontStep> open(StepReport& report);
+  void grow(const std::vector<FrontStep>& steps, StepReport& report);
+  void attempt(StepReport& report, const std::function<void()>& part);
   void compute_frame(const Fracture& self, StepReport& report);
 };
 
@@ -229,17 +233,16 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   return steps;
 }
 
-void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
+std::vector<FrontStep> Fracture::State::open(StepReport& report) {
   Stopwatch clock;
   report.front_points = crack.points.size();
   compute_openings(report);
   report.opening_seconds = clock.lap();
   frame = report.frame;
-  const std::vector<FrontStep> steps = decide(report);
-  for (FractureObserver* observer : observers)
-    observer->on_opening(self);
-  history.remember(crack, openings);
-  report.other_seconds = clock.lap();
+  return decide(report);
+}
+
+void Fracture::State::grow(const std::vector<FrontStep>& steps, StepReport& report) {
   if (ligament_breaks(false)) {
     stop = StopReason::separated;
     return;
@@ -252,13 +255,38 @@ void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
   if (!steps.empty() || new_crack)
     update_crack(crack, body->surface, body->crack_edge,
                  solves_next() ? NearCracks::divided : NearCracks::as_it_is);
-  report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
   const bool grown = sheets.driving().triangle_count() + crack.sheet.mesh.triangle_count() > before;
   if (!grown && !new_crack)
     stop = ligament_breaks(true) ? StopReason::separated : StopReason::arrested;
   else if (separated())
     stop = StopReason::separated;
+}
+
+// A later frame that cannot be computed ends the run, which keeps the frames before.
+void Fracture::State::attempt(StepReport& report, const std::function<void()>& part) {
+  try {
+    part();
+  } catch (const ComputationError& error) {
+    if (first(report.frame)) throw;
+    report.warnings.push_back(fmt::format("frame {}: {}; the run ends here and keeps the frames before",
+                                          report.frame, error.what()));
+    stop = StopReason::singular;
+  }
+}
+
+// What observers throw, a full disk, is no part of the frame.
+void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
+  std::vector<FrontStep> steps;
+  attempt(report, [&] { steps = open(report); });
+  if (stop) return;
+  Stopwatch clock;
+  for (FractureObserver* observer : observers)
+    observer->on_opening(self);
+  history.remember(crack, openings);
+  report.other_seconds = clock.lap();
+  attempt(report, [&] { grow(steps, report); });
+  report.fracture_seconds = clock.lap();
 }
 
 Fracture::Fracture(std::shared_ptr<const PreparedBody> body, LoadCase load, const RunSpec& settings,
@@ -284,14 +312,7 @@ StepReport Fracture::step() {
   report.frame = s.frame + 1;
   for (FractureObserver* observer : s.observers)
     observer->on_frame(*this, report.frame);
-  try {
-    s.compute_frame(*this, report);
-  } catch (const SingularSystem& error) {
-    if (s.first(report.frame)) throw;
-    report.warnings.push_back(fmt::format("frame {}: {}; the run ends here and keeps the frames before",
-                                          report.frame, error.what()));
-    s.stop = StopReason::singular;
-  }
+  s.compute_frame(*this, report);
   report.stop = s.stop;
   report.moving = !s.stop;
   for (FractureObserver* observer : s.observers)

@@ -78,8 +78,8 @@ class Fracture {
   Fracture& operator=(Fracture&&) noexcept;
 
   /// Computes the next frame; the first step also looks for a crack to start with. After a stop it does
-  /// nothing and reports the stop again. Throws ComputationError when the first frame cannot be solved; later
-  /// ones that cannot are carried on for a few frames, then end the run as `singular`.
+  /// nothing and reports the stop again. Throws ComputationError when the first frame cannot be computed; later
+  /// ones that cannot end the run as `singular`, those that cannot be solved after they were carried on for a few frames.
   StepReport step();
 
   /// Another load of the same kinds from the next step on; a fracture that was arrested or intact goes on.

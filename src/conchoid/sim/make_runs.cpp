@@ -148,10 +148,8 @@ void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
   if (runs.empty()) return;
   if (!spec.world) {
     const auto body = std::make_shared<const PreparedBody>(prepare(spec.scene));
-    parallel_in_order(runs.size(), [&](std::size_t i) {
-      throw_if_interrupted();
-      keep(computed(spec, under_drawn_load(spec, body, runs[i])));
-    });
+    parallel_in_order(runs.size(),
+                      [&](std::size_t i) { keep(computed(spec, under_drawn_load(spec, body, runs[i]))); });
     return;
   }
   std::map<std::int32_t, std::vector<std::int32_t>> of_body;
@@ -160,7 +158,6 @@ void make_runs(const DatabaseSpec& spec, std::span<const std::int32_t> runs,
   const std::vector<std::pair<std::int32_t, std::vector<std::int32_t>>> bodies(of_body.begin(),
                                                                                of_body.end());
   parallel_in_order(bodies.size(), [&](std::size_t b) {
-    throw_if_interrupted();
     const WorldRuns of_this(spec, bodies[b].first);
     for (const std::int32_t run : bodies[b].second) {
       throw_if_interrupted();
