@@ -70,12 +70,13 @@ TEST(Breakup, AFullDiskIsNoFaultOfAPiece) {
   struct FullDisk : FractureObserver {
     const PreparedBody* whole = nullptr;
     void on_opening(const Fracture& fracture) override {
-      if (!whole) whole = &fracture.body();
       if (&fracture.body() != whole) throw WriteError("the disk is full");
     }
   } disk;
   const Scene scene = test::scene_from_text(cut_cube(1.5e8));
-  Breakup breakup(scene, std::make_shared<const PreparedBody>(prepare(scene)));
+  const auto body = std::make_shared<const PreparedBody>(prepare(scene));
+  disk.whole = body.get();
+  Breakup breakup(scene, body);
   breakup.add_observer(disk);
   EXPECT_THROW(breakup.run(40), WriteError);
 }
