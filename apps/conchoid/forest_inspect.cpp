@@ -102,7 +102,7 @@ ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples)
   return out;
 }
 
-// What a regressor of these features learns from and openings tell how well it has.
+// What a regressor of these features learns from, but for nodes that are new on a front: they have no opening to compare with.
 SampleSet samples_for(const Regressor& regressor, const std::string& database) {
   TrainingChoice choice;
   choice.end_game = learns_all_samples(regressor.feature_set());

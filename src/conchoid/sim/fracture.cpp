@@ -115,8 +115,8 @@ struct Fracture::State {
   void compute_openings(StepReport& report);
   std::vector<FrontOpening> open_crack();
   std::vector<FrontStep> decide(StepReport& report);
-  std::vector<FrontStep> open(StepReport& report);
-  void grow(const std::vector<FrontStep>& steps, StepReport& report);
+  std::vector<FrontStep> open(StepReport& report, Stopwatch& clock);
+  void grow(const std::vector<FrontStep>& steps, StepReport& report, Stopwatch& clock);
   void attempt(StepReport& report, const std::function<void()>& part);
   void compute_frame(const Fracture& self, StepReport& report);
 };
@@ -233,8 +233,7 @@ std::vector<FrontStep> Fracture::State::decide(StepReport& report) {
   return steps;
 }
 
-std::vector<FrontStep> Fracture::State::open(StepReport& report) {
-  Stopwatch clock;
+std::vector<FrontStep> Fracture::State::open(StepReport& report, Stopwatch& clock) {
   report.front_points = crack.points.size();
   compute_openings(report);
   report.opening_seconds = clock.lap();
@@ -242,7 +241,7 @@ std::vector<FrontStep> Fracture::State::open(StepReport& report) {
   return decide(report);
 }
 
-void Fracture::State::grow(const std::vector<FrontStep>& steps, StepReport& report) {
+void Fracture::State::grow(const std::vector<FrontStep>& steps, StepReport& report, Stopwatch& clock) {
   if (ligament_breaks(false)) {
     stop = StopReason::separated;
     return;
@@ -255,6 +254,7 @@ void Fracture::State::grow(const std::vector<FrontStep>& steps, StepReport& repo
   if (!steps.empty() || new_crack)
     update_crack(crack, body->surface, body->crack_edge,
                  solves_next() ? NearCracks::divided : NearCracks::as_it_is);
+  report.fracture_seconds = clock.lap();
   report.crack_triangles = crack.trimmed.triangle_count();
   const bool grown = sheets.driving().triangle_count() + crack.sheet.mesh.triangle_count() > before;
   if (!grown && !new_crack)
@@ -277,16 +277,15 @@ void Fracture::State::attempt(StepReport& report, const std::function<void()>& p
 
 // What observers throw, a full disk, is no part of the frame.
 void Fracture::State::compute_frame(const Fracture& self, StepReport& report) {
-  std::vector<FrontStep> steps;
-  attempt(report, [&] { steps = open(report); });
-  if (stop) return;
   Stopwatch clock;
+  std::vector<FrontStep> steps;
+  attempt(report, [&] { steps = open(report, clock); });
+  if (stop) return;
   for (FractureObserver* observer : observers)
     observer->on_opening(self);
   history.remember(crack, openings);
   report.other_seconds = clock.lap();
-  attempt(report, [&] { grow(steps, report); });
-  report.fracture_seconds = clock.lap();
+  attempt(report, [&] { grow(steps, report, clock); });
 }
 
 Fracture::Fracture(std::shared_ptr<const PreparedBody> body, LoadCase load, const RunSpec& settings,
