@@ -35,10 +35,8 @@ struct EvaluateOptions {
 };
 
 void one_step(const EvaluateOptions& options, const Regressor& model, bool json) {
-  // Nodes that are new on a front are not chosen: they have no opening to compare with.
-  TrainingChoice choice = options.choice;
-  choice.end_game = learns_all_samples(model.feature_set());
-  const SampleSet samples = read_database(options.samples).training_samples(choice);
+  const SampleSet samples =
+      read_database(options.samples).samples_to_judge(model.feature_set(), options.choice);
   const Evaluation e = evaluate(model, samples, baseline_predictors());
   print(json ? json_text(e) : one_step_text(e));
 }

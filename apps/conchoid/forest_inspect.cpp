@@ -102,11 +102,8 @@ ordered_json accuracy_json(const Regressor& regressor, const SampleSet& samples)
   return out;
 }
 
-// What a regressor of these features learns from, but for nodes that are new on a front: they have no opening to compare with.
 SampleSet samples_for(const Regressor& regressor, const std::string& database) {
-  TrainingChoice choice;
-  choice.end_game = learns_all_samples(regressor.feature_set());
-  return read_database(database).training_samples(choice);
+  return read_database(database).samples_to_judge(regressor.feature_set());
 }
 
 // Of a database, or of a scene solved by boundary elements.

@@ -33,6 +33,8 @@ int carry_out(const Invocation& invocation) {
     std::cerr << stop.what() << '\n';
   } catch (const ComputationError& error) {
     std::cerr << "failed: " << error.what() << '\n';
+  } catch (const WriteError& error) {
+    std::cerr << "failed: " << error.what() << '\n';
   } catch (const std::bad_alloc&) {
     std::cerr << "failed: not enough memory; use fewer triangles (body.remesh, resolution.crack) or a larger "
                  "machine\n";

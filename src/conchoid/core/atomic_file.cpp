@@ -30,12 +30,17 @@ bool sync_to_disk(const std::filesystem::path& path) {
   return done;
 }
 
+WriteError writing_failed(const std::filesystem::path& path) {
+  return WriteError(path.string() + ": writing failed (" + std::strerror(errno) + "); is the disk full?");
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::filesystem::path path)
     : path_(std::move(path)), temporary_(temporary_name(path_)) {
   errno = 0;
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  if (!stream_ && errno == ENOSPC) throw writing_failed(path_);
   if (!stream_)
     throw InputError(path_.string() + ": cannot be written (" + std::strerror(errno) +
                      "); name a file in an existing folder that you may write to");
@@ -51,7 +56,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
   stream_.close();
   if (!stream_ || !sync_to_disk(temporary_))
-    throw WriteError(path_.string() + ": writing failed (" + std::strerror(errno) + "); is the disk full?");
+    throw writing_failed(path_);
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error)

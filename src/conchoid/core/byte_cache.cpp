@@ -94,7 +94,7 @@ void ByteCache::keep(const std::string& name, std::string_view bytes) const {
     write_bytes(file_of(name), out.bytes());
   } catch (const InputError& e) {
     warning(std::string(e.what()) + "; nothing is kept in the cache");
-  } catch (const ComputationError& e) {
+  } catch (const WriteError& e) {
     warning(std::string(e.what()) + "; nothing is kept in the cache");
   }
 }

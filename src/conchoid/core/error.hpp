@@ -11,18 +11,17 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The computation could not be done although the input was acceptable (singular system, full disk). Exit
-/// status 1.
+/// The computation could not be done although the input was acceptable (singular system). Exit status 1.
 class ComputationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What was computed could not be written: mostly a full disk. No fault of what is computed next to it, so nobody who copes
-/// with a ComputationError of that takes it for one.
-class WriteError : public ComputationError {
+/// What was computed could not be written: mostly a full disk. Exit status 1. No ComputationError: who copes with one of those
+/// (a frame, a piece, an experiment that cannot be computed) does not take it for that.
+class WriteError : public std::runtime_error {
  public:
-  using ComputationError::ComputationError;
+  using std::runtime_error::runtime_error;
 };
 
 /// The boundary elements of a body and its cracks give no system that can be solved: mostly a piece has come

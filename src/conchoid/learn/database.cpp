@@ -23,6 +23,12 @@ SampleSet Database::training_samples(const TrainingChoice& choice) const {
   return samples.subset(kept);
 }
 
+SampleSet Database::samples_to_judge(FeatureSet features, TrainingChoice choice) const {
+  choice.end_game = learns_all_samples(features);
+  choice.new_nodes = false;
+  return training_samples(choice);
+}
+
 std::set<std::string> Database::body_classes() const {
   std::set<std::string> classes;
   for (const RunRecord& run : runs)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conchoid/learn/features.hpp"
 #include "conchoid/learn/material_record.hpp"
 #include "conchoid/learn/sample.hpp"
 
@@ -75,6 +76,9 @@ struct Database {
   bool complete() const { return static_cast<std::int32_t>(runs.size()) == header.planned_here(); }
   /// Samples of the runs that are not excluded, as far as they are chosen.
   SampleSet training_samples(const TrainingChoice& choice = {}) const;
+  /// What a regressor of these features is judged by: all that it could learn from, as far as it is chosen, but for nodes that
+  /// are new on a front, which have no opening to compare with.
+  SampleSet samples_to_judge(FeatureSet features, TrainingChoice choice = {}) const;
   /// Classes of bodies that runs are of.
   std::set<std::string> body_classes() const;
   /// Hash of the content; wall-clock times do not enter.

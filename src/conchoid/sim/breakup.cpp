@@ -312,15 +312,13 @@ void Breakup::State::end_body(StopReason reason) {
     end_piece();
 }
 
-// What goes wrong in a piece ends that piece, not the run; a full disk does.
+// What goes wrong in a piece ends that piece, not the run.
 void Breakup::State::step_piece(StepReport& report) {
   try {
     report = fracture->step();
   } catch (const SingularSystem& error) {
     if (!leave_out_a_crack()) give_up(error);
     report.stop = StopReason::singular;
-  } catch (const WriteError&) {
-    throw;
   } catch (const ComputationError& error) {
     give_up(error);
     report.stop = StopReason::singular;

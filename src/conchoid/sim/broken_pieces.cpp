@@ -20,14 +20,10 @@ std::size_t sheet_triangles(const std::vector<Fragment>& fragments) {
   return count;
 }
 
-// The volume and mass of a piece go to its parts: what mending it took or added (mend_fragment(), a millionth at most) is
-// none of theirs.
+// The volume and mass of a piece go to its parts: what mending it took or added (mend_fragment()) is none of theirs.
 void share_out(const Fragment& whole, std::vector<Fragment>& parts) {
-  double volume = 0;
-  for (const Fragment& part : parts)
-    volume += part.volume;
-  const double ratio = whole.volume / volume;
-  if (!(std::abs(ratio - 1) <= kMendedVolume)) return;
+  const TriMesh& solid = whole.unfinished.solid.corners.empty() ? whole.mesh : whole.unfinished.solid;
+  const double ratio = whole.volume / enclosed_volume(solid);
   for (Fragment& part : parts) {
     part.volume *= ratio;
     part.mass *= ratio;
