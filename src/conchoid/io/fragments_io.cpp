@@ -1,9 +1,12 @@
 #include "conchoid/io/fragments_io.hpp"
 
 #include <algorithm>
-#include <map>
+#include <array>
+#include <boost/container_hash/hash.hpp>
+#include <unordered_map>
 
 #include "conchoid/core/atomic_file.hpp"
+#include "conchoid/core/bytes.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/numbers.hpp"
 #include "conchoid/formats/ply.hpp"
@@ -28,23 +31,32 @@ void write_material(std::ostream& out, const std::string& name, const Color& col
       << shortest(color.b) << "\nKa 0 0 0\nKs 0.05 0.05 0.05\nNs 20\nillum 2\n\n";
 }
 
-/// The different values of corners, as lines of an .obj file in the order of their first corner; numbers
+/// "v x y z", a line of an .obj file.
+template <class Vector>
+void append_line(std::string& to, const char* keyword, const Vector& x) {
+  to += keyword;
+  for (const auto component : x) {
+    to += ' ';
+    append_shortest(to, component);
+  }
+  to += '\n';
+}
+
+/// The different values of corners, in single precision, as lines of an .obj file in the order of their first corner; numbers
 /// count from 1.
 template <class T>
 class ValueLines {
  public:
-  ValueLines(std::ostream& out, const char* keyword, const std::vector<std::array<T, 3>>& corners) {
+  ValueLines(std::string& out, const char* keyword, const std::vector<std::array<T, 3>>& corners) {
+    known_.reserve(corners.size());
+    number_.reserve(3 * corners.size());
     for (const auto& three : corners)
       for (const T& value : three) {
-        const Eigen::Matrix<float, T::RowsAtCompileTime, 1> x = value.template cast<float>();
-        const auto [entry, is_new] =
-            known_.emplace(std::vector<float>(x.data(), x.data() + x.size()), known_.size() + 1);
+        Value x;
+        std::transform(value.begin(), value.end(), x.begin(), [](double v) { return static_cast<float>(v); });
+        const auto [entry, is_new] = known_.emplace(x, known_.size() + 1);
         number_.push_back(entry->second);
-        if (!is_new) continue;
-        out << keyword;
-        for (const float component : entry->first)
-          out << ' ' << shortest(static_cast<double>(component));
-        out << '\n';
+        if (is_new) append_line(out, keyword, x);
       }
   }
   std::size_t operator()(std::size_t triangle, std::size_t corner) const {
@@ -53,7 +65,16 @@ class ValueLines {
   bool empty() const { return number_.empty(); }
 
  private:
-  std::map<std::vector<float>, std::size_t> known_;
+  using Value = std::array<float, T::RowsAtCompileTime>;
+  struct Hash {
+    std::size_t operator()(const Value& x) const {
+      std::size_t hash = 0;
+      for (const float component : x)
+        boost::hash_combine(hash, component + 0.0f);  // −0 is 0
+      return hash;
+    }
+  };
+  std::unordered_map<Value, std::size_t, Hash> known_;
   std::vector<std::size_t> number_;
 };
 
@@ -114,8 +135,10 @@ void write_hulls_obj(const std::filesystem::path& path, const std::vector<Fragme
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const TriMesh hull = convex_hull(fragments[i].mesh);
     out << "o " << fragment_name(i) << '\n';
+    std::string nodes;
     for (const Vec3& x : hull.positions)
-      out << "v " << shortest(x[0]) << ' ' << shortest(x[1]) << ' ' << shortest(x[2]) << '\n';
+      append_line(nodes, "v", x);
+    out << nodes;
     for (const auto& c : hull.corners)
       out << "f " << first + c[0].index() << ' ' << first + c[1].index() << ' ' << first + c[2].index()
           << '\n';
@@ -138,27 +161,28 @@ void write_fragment_obj(const std::filesystem::path& path, const Fragment& fragm
                    &name == &look.materials.back() ? fracture_color : original_color);
   materials.commit();
 
-  AtomicFile file(path);
-  std::ostream& out = file.stream();
-  out << "# conchoid fragment, lengths in metres\nmtllib " << material.filename().string() << '\n';
+  std::string text = "# conchoid fragment, lengths in metres\nmtllib " + material.filename().string() + '\n';
   for (const Vec3& x : fragment.mesh.positions)
-    out << "v " << shortest(x[0]) << ' ' << shortest(x[1]) << ' ' << shortest(x[2]) << '\n';
-  const ValueLines<Vec2> uv(out, "vt", look.uv);
-  const ValueLines<Vec3> normal(out, "vn", look.normal);
+    append_line(text, "v", x);
+  const ValueLines<Vec2> uv(text, "vt", look.uv);
+  const ValueLines<Vec3> normal(text, "vn", look.normal);
   for (std::size_t m = 0; m < look.materials.size(); ++m) {
-    out << "g " << look.materials[m] << "\nusemtl " << look.materials[m] << '\n';
+    text += "g " + look.materials[m] + "\nusemtl " + look.materials[m] + '\n';
     for (std::size_t t = 0; t < fragment.mesh.triangle_count(); ++t) {
       if (look.material[t] != static_cast<int>(m)) continue;
-      out << 'f';
+      text += 'f';
       for (std::size_t k = 0; k < 3; ++k) {
-        out << ' ' << fragment.mesh.corners[TriId(t)][k].value + 1 << '/';
-        if (!uv.empty()) out << uv(t, k);
-        out << '/' << normal(t, k);
+        text += ' ';
+        append_shortest(text, fragment.mesh.corners[TriId(t)][k].value + 1);
+        text += '/';
+        if (!uv.empty()) append_shortest(text, uv(t, k));
+        text += '/';
+        append_shortest(text, normal(t, k));
       }
-      out << '\n';
+      text += '\n';
     }
   }
-  file.commit();
+  write_bytes(path, text);
 }
 
 }  // namespace conchoid

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 
 #include "conchoid/core/atomic_file.hpp"
 #include "conchoid/core/error.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/formats/formats.hpp"
 #include "conchoid/formats/ply.hpp"
 #include "conchoid/io/level_set.hpp"
@@ -238,13 +240,19 @@ void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const Fr
     refuse_folder(path_ / "fragments",
                   "cannot be created (" + error.code().message() + "); check the permissions");
   }
+  std::vector<std::function<void()>> files;
+  if (formats.glb) files.push_back([&] { write_fragments_glb(path_ / "fragments.glb", fragments, contacts); });
   for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const Fragment& f = fragments[i];
     const std::string name = (path_ / "fragments" / fragment_name(i)).string();
-    if (formats.ply) write_fragment_ply(name + ".ply", fragments[i]);
-    if (formats.obj) write_fragment_obj(name + ".obj", fragments[i]);
-    if (formats.stl) write_mesh(name + ".stl", fragments[i].mesh);
+    if (formats.obj) files.push_back([&f, name] { write_fragment_obj(name + ".obj", f); });
+    if (formats.ply) files.push_back([&f, name] { write_fragment_ply(name + ".ply", f); });
+    if (formats.stl) files.push_back([&f, name] { write_mesh(name + ".stl", f.mesh); });
   }
-  if (formats.glb) write_fragments_glb(path_ / "fragments.glb", fragments, contacts);
+  parallel_for(files.size(), 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i)
+      files[i]();
+  });
   if (formats.vdb) write_fragments_vdb(path_ / "fragments.vdb", fragments, voxel);
   if (formats.hulls) write_hulls_obj(path_ / "hulls.obj", fragments);
 }

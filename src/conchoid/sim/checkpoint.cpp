@@ -37,8 +37,8 @@ DenseMatrix get_matrix(ByteReader& in) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(fs::path folder, std::string identity, Earlier earlier)
-    : folder_(std::move(folder) / "resume"), identity_(std::move(identity)) {
+Checkpoint::Checkpoint(fs::path folder, std::string identity, Earlier earlier, BackgroundQueue& queue)
+    : folder_(std::move(folder) / "resume"), identity_(std::move(identity)), queue_(queue) {
   if (earlier == Earlier::keep)
     while (fs::exists(file(frames_ + 1))) {
       read(frames_ + 1);
@@ -60,11 +60,19 @@ void Checkpoint::begin(int frame) {
 
 void Checkpoint::finish(int frame) {
   if (frame <= frames_) return;
+  queue_.add([file = file(frame), identity = identity_, records = std::move(records_)] {
+    write(file, identity, records);
+  });
+  records_.clear();
+}
+
+void Checkpoint::write(const fs::path& file, const std::string& identity,
+                       const std::vector<Record>& records) {
   ByteWriter out;
   out.put_raw(kMagic);
-  out.put_text(identity_);
-  out.put(static_cast<std::uint64_t>(records_.size()));
-  for (const Record& record : records_) {
+  out.put_text(identity);
+  out.put(static_cast<std::uint64_t>(records.size()));
+  for (const Record& record : records) {
     out.put_text(record.name);
     out.put(static_cast<std::uint64_t>(record.rows.size()));
     for (const EnrichmentRows& rows : record.rows) {
@@ -76,8 +84,8 @@ void Checkpoint::finish(int frame) {
   const std::uint64_t check = hash_bytes(out.bytes());
   out.put(check);
   std::error_code error;
-  fs::create_directories(folder_, error);
-  write_bytes(file(frame), out.bytes());
+  fs::create_directories(file.parent_path(), error);
+  write_bytes(file, out.bytes());
 }
 
 std::vector<Checkpoint::Record> Checkpoint::read(int frame) const {

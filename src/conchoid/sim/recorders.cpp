@@ -96,7 +96,9 @@ void FrameWriter::on_opening(const Fracture& fracture) {
     }
   }
   data.exaggeration = exaggeration_;
-  folder_.write_frame(fracture.frame(), data);
+  queue_.add([&folder = folder_, frame = fracture.frame(), data = std::move(data)] {
+    folder.write_frame(frame, data);
+  });
 }
 
 }  // namespace conchoid

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "conchoid/core/background_queue.hpp"
 #include "conchoid/io/run_folder.hpp"
 #include "conchoid/learn/sample.hpp"
 #include "conchoid/sim/fracture.hpp"
@@ -54,12 +55,14 @@ class SampleRecorder : public FractureObserver {
 /// Frames for ParaView, in the body's coordinates.
 class FrameWriter : public FractureObserver {
  public:
-  /// @param folder  must outlive the writer; exaggeration  see FrameData
-  FrameWriter(RunFolder& folder, double exaggeration) : folder_(folder), exaggeration_(exaggeration) {}
+  /// @param folder  must outlive the queue, which writes; exaggeration  see FrameData
+  FrameWriter(RunFolder& folder, BackgroundQueue& queue, double exaggeration)
+      : folder_(folder), queue_(queue), exaggeration_(exaggeration) {}
   void on_opening(const Fracture& fracture) override;
 
  private:
   RunFolder& folder_;
+  BackgroundQueue& queue_;
   double exaggeration_;
 };
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
+#include "conchoid/core/background_queue.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/hash.hpp"
 #include "conchoid/core/log.hpp"
@@ -76,6 +78,7 @@ RunDocument describe(const Scene& scene, const PreparedBody& body, const RunOpti
 struct Places {
   std::optional<RunFolder> folder;
   std::optional<Checkpoint> checkpoint;
+  std::unique_ptr<BackgroundQueue> queue;  // ends before what it writes to
 };
 
 // A checkpoint is read before anything in the folder is touched.
@@ -83,9 +86,13 @@ Places open_places(const Fracture& fracture, const Scene& scene, const RunOption
   Places places;
   if (!options.folder) return places;
   const std::string identity = run_identity(scene, fracture.body(), fracture.load(), options);
-  if (options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::keep);
+  places.queue = std::make_unique<BackgroundQueue>();
+  const auto open_checkpoint = [&](Checkpoint::Earlier earlier) {
+    places.checkpoint.emplace(*options.folder, identity, earlier, *places.queue);
+  };
+  if (options.resume) open_checkpoint(Checkpoint::Earlier::keep);
   places.folder.emplace(*options.folder);
-  if (!options.resume) places.checkpoint.emplace(*options.folder, identity, Checkpoint::Earlier::remove);
+  if (!options.resume) open_checkpoint(Checkpoint::Earlier::remove);
   if (places.checkpoint->frames() > 0)
     message(fmt::format("{}: goes on after frame {}", options.folder->string(), places.checkpoint->frames()));
   return places;
@@ -193,7 +200,7 @@ RunResult run_it(const Scene& scene, const std::shared_ptr<const PreparedBody>& 
   if (places.checkpoint) {
     doc.resumed_after = places.checkpoint->frames();
     breakup.keep_rows(&*places.checkpoint);
-    frames.emplace(*places.folder, scene.output.exaggeration);
+    frames.emplace(*places.folder, *places.queue, scene.output.exaggeration);
     breakup.add_observer(*frames);
     breakup.add_observer(*places.checkpoint);
   }
@@ -225,7 +232,12 @@ RunResult run_it(const Scene& scene, const std::shared_ptr<const PreparedBody>& 
   doc.total_seconds = clock.seconds();
   doc.other_seconds = doc.total_seconds - doc.opening_seconds - doc.fracture_seconds;
   if (doc.frames > 0) doc.opening_seconds_per_frame = doc.opening_seconds / doc.frames;
-  if (places.folder) write_results(result, choice.formats, body->surface_edge, *places.folder);
+  if (places.folder) {
+    places.queue->finish();
+    undisturbed([&] {  // a stop that is asked for now comes too late to leave anything out
+      write_results(result, choice.formats, body->surface_edge, *places.folder);
+    });
+  }
   if (places.checkpoint && !may_go_on(doc.stop)) places.checkpoint->remove();
   return result;
 }
