@@ -56,37 +56,95 @@ void intensities(benchmark::State& state) {
   state.counters["error_one_point"] = error_one;
 }
 
-// One frame of the coarse and the fine front together; beside it the search for fronts that touch alone,
-// which looks at every node against every edge (ratio: its share of the frame).
-void front_advance(benchmark::State& state) {
-  const int rings = static_cast<int>(state.range(0));
-  const double edge = 1.0 / rings;
-  CrackSheet start;
-  append_part(start, testing::disc(1, rings));
-  const FineFront fine_start(start, {.resolution = edge, .spacing = edge / 5});
-  const auto frames = front_frames(start, start.fronts[0]);
-  std::vector<FrontStep> steps;
-  std::vector<FrontMotion> motions;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    steps.push_back({start.fronts[0].nodes[i], frames[i], 0.2, 2e6});
-    motions.push_back({start.fronts[0].nodes[i], 0.5 * edge * frames[i].e2});
+// A flat crack of a given front that goes on by half an edge a frame. Fine front five times as fine.
+class GrowingRibbon {
+ public:
+  /// @param edges  along the front's long sides; the ribbon is four edges wide
+  explicit GrowingRibbon(int edges)
+      : fine_((append_part(sheet_, testing::rectangle(edges * kEdge, 4 * kEdge, edges, 4)), sheet_),
+              {.resolution = kEdge, .spacing = kEdge / 5}) {}
+  void advance() {
+    const SheetFront& front = sheet_.fronts[0];
+    const auto frames = front_frames(sheet_, front);
+    std::vector<FrontStep> steps;
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      steps.push_back({front.nodes[i], frames[i], 0, 2e6});
+    advance_fronts(sheet_, fine_, steps, model_, kEdge);
   }
-  const auto law = std::make_shared<HoopStressLaw>(kGlassy);
-  const ToughnessField toughness = [](const Vec3&) { return Toughness{1e6, Vec3::Zero()}; };
+  /// Least seconds of a frame of three.
+  double frame_seconds() {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+      least = std::min(least, seconds([&] { advance(); }));
+    return least;
+  }
+  std::size_t front_nodes() const { return sheet_.fronts[0].nodes.size(); }
+  std::size_t triangles() const { return fine_.surface().triangle_count(); }
+
+ private:
+  static constexpr double kEdge = 0.01;
+  CrackSheet sheet_;
+  FineFront fine_;
+  GrowthModel model_{std::make_shared<HoopStressLaw>(kGlassy), [](const Vec3&) {
+                       return Toughness{1e6, Vec3::Zero()};
+                     }};
+};
+
+// A frame of the coarse and the fine front together, per front node, beside that of a front of some 80 nodes. The ratio is how
+// many times as many nodes there are where cost is linear in the front's length; `exponent` is what it is linear in.
+void front_length(benchmark::State& state) {
+  std::size_t many = 0, few = 0;
+  const Times t = side_by_side(
+      state,
+      [&] {
+        GrowingRibbon crack(static_cast<int>(state.range(0)));
+        const double time = crack.frame_seconds();
+        many = crack.front_nodes();
+        return time;
+      },
+      [&] {
+        GrowingRibbon crack(36);
+        const double time = crack.frame_seconds();
+        few = crack.front_nodes();
+        return time;
+      });
+  state.counters["front_nodes"] = static_cast<double>(many);
+  state.counters["us_per_node"] = 1e6 * t.fast / static_cast<double>(many);
+  state.counters["exponent"] =
+      std::log(t.fast / t.slow) / std::log(static_cast<double>(many) / static_cast<double>(few));
+}
+
+// A frame behind many others, beside the first ones of the same front: what has cracked does not count. Both per node.
+void cracked_before(benchmark::State& state) {
+  std::size_t triangles = 0, nodes = 0;
   side_by_side(
       state,
       [&] {
-        CrackSheet sheet = start;
-        FineFront fine = fine_start;
-        return seconds([&] { advance_fronts(sheet, fine, steps, {law, toughness}, edge); });
+        GrowingRibbon crack(200);
+        for (int i = 0; i < state.range(0); ++i)
+          crack.advance();
+        triangles = crack.triangles();
+        nodes = crack.front_nodes();
+        return crack.frame_seconds() / static_cast<double>(crack.front_nodes());
       },
-      [&] { return seconds([&] { benchmark::DoNotOptimize(touching_nodes(start, motions, edge)); }); });
-  state.counters["front_nodes"] = static_cast<double>(frames.size());
+      [&] {
+        GrowingRibbon crack(200);
+        return crack.frame_seconds() / static_cast<double>(crack.front_nodes());
+      });
+  state.counters["front_nodes"] = static_cast<double>(nodes);
+  state.counters["fine_triangles"] = static_cast<double>(triangles);
 }
 
 }  // namespace
 
 BENCHMARK(intensities)->Arg(8)->Arg(32)->Iterations(30)->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(front_advance)->Arg(8)->Arg(32)->Iterations(10)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(front_length)
+    ->Arg(150)
+    ->Arg(600)
+    ->Arg(2400)
+    ->Iterations(3)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(cracked_before)->Arg(40)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace conchoid::bench

@@ -38,7 +38,10 @@ TriMesh on_a_lattice(std::size_t triangles, unsigned seed) {
 
 TEST(BoxTree, FindsTheTrianglesThatABoxMeets) {
   for (const TriMesh& mesh : {random_soup(300, 1), on_a_lattice(300, 2)}) {
-    const BoxTree tree(mesh);
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      boxes.push_back(box_of(mesh.triangle(TriId(t))));
+    const BoxTree tree(mesh), of_boxes(boxes);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1.2, 1.2);
     for (int i = 0; i < 500; ++i) {
@@ -46,6 +49,7 @@ TEST(BoxTree, FindsTheTrianglesThatABoxMeets) {
       const Vec3 q = p + 0.3 * Vec3(uniform(random), uniform(random), uniform(random));
       const Box box{p.cwiseMin(q), p.cwiseMax(q)};
       ASSERT_EQ(tree.overlapping(box), all_overlapping(mesh, box));
+      ASSERT_EQ(of_boxes.overlapping(box), all_overlapping(mesh, box));
     }
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       const Box own = box_of(mesh.triangle(TriId(t)));

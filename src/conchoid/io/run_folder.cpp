@@ -241,7 +241,8 @@ void RunFolder::write_fragments(const std::vector<Fragment>& fragments, const Fr
                   "cannot be created (" + error.code().message() + "); check the permissions");
   }
   std::vector<std::function<void()>> files;
-  if (formats.glb) files.push_back([&] { write_fragments_glb(path_ / "fragments.glb", fragments, contacts); });
+  if (formats.glb)
+    files.push_back([&] { write_fragments_glb(path_ / "fragments.glb", fragments, contacts); });
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
     const std::string name = (path_ / "fragments" / fragment_name(i)).string();

@@ -38,6 +38,18 @@ BoxTree::BoxTree(const TriMesh& mesh) {
     boxes_.push_back(box_of(x));
     items.push_back({x[0] + x[1] + x[2], t});
   }
+  build_all(std::move(items));
+}
+
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+  std::vector<Item> items;
+  items.reserve(boxes_.size());
+  for (const Box& box : boxes_)
+    items.push_back({box.low + box.high, items.size()});
+  build_all(std::move(items));
+}
+
+void BoxTree::build_all(std::vector<Item> items) {
   if (items.empty()) return;
   branches_.resize(branches_of(items.size()));
   // The upper levels one after the other, what is below side by side.

@@ -14,6 +14,8 @@ namespace conchoid {
 class BoxTree {
  public:
   explicit BoxTree(const TriMesh& mesh);
+  /// Of anything else: TriId(i) stands for what is in box i, whose middle is its centroid.
+  explicit BoxTree(std::vector<Box> boxes);
 
   /// Triangles whose boxes meet the given one (touching counts), ascending.
   std::vector<TriId> overlapping(const Box& box) const;
@@ -43,12 +45,13 @@ class BoxTree {
 
   /// A triangle on its way to its place: all that halving asks of it, side by side in memory.
   struct Item {
-    Vec3 center;  ///< times three
+    Vec3 center;  ///< times any number, the same for all
     std::size_t triangle;
   };
   struct Part {
     std::size_t branch, begin, end;
   };
+  void build_all(std::vector<Item> items);
   /// Halves the items of a part; false if they stay together, in a branch that then has its box.
   bool halve(std::vector<Item>& items, const Part& part, Part& left, Part& right);
   void build(std::vector<Item>& items, const Part& part);

@@ -5,6 +5,7 @@
 
 #include "conchoid/crack/front/front_frames.hpp"
 #include "conchoid/crack/length_factors.hpp"
+#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 
@@ -79,13 +80,49 @@ bool touches(const Mover& m, const Mover& a, const Mover& b, bool one_front, dou
                   segment_distance(m.from, m.to, a.from, b.from)) < distance;
 }
 
-/// Cheap test before touches(): the mover's ball and the edge's ball, both grown by the distance.
-bool within_reach(const Mover& m, const Mover& a, const Mover& b, double distance) {
-  const double own = (m.to - m.from).norm();
-  const double edge = std::max((b.from - a.from).norm(), (b.to - a.to).norm()) + (a.to - a.from).norm();
-  const double reach = own + edge + distance;
-  return (m.from - a.from).squaredNorm() < reach * reach;
-}
+/// From place `edge` of a front to the next.
+struct FrontEdge {
+  std::size_t front, edge, next;
+};
+
+/// The edges of all fronts, in their order, by where they are on their way.
+class FrontEdges {
+ public:
+  explicit FrontEdges(const std::vector<MovingFront>& fronts)
+      : edges_(edges_of(fronts)), tree_(boxes_of(fronts, edges_)) {}
+  /// All that come nearer to the node on its way than that, and others; in their order.
+  std::vector<FrontEdge> near(const Mover& m, double distance) const {
+    const Vec3 reach = Vec3::Constant(distance * (1 + kRoundOff));
+    std::vector<FrontEdge> found;
+    for (const TriId e : tree_.overlapping({m.from.cwiseMin(m.to) - reach, m.from.cwiseMax(m.to) + reach}))
+      found.push_back(edges_[e.index()]);
+    return found;
+  }
+
+ private:
+  static std::vector<FrontEdge> edges_of(const std::vector<MovingFront>& fronts) {
+    std::vector<FrontEdge> edges;
+    for (std::size_t f = 0; f < fronts.size(); ++f) {
+      const std::size_t n = fronts[f].nodes.size();
+      for (std::size_t e = 0; e < edge_count(n, fronts[f].closed); ++e)
+        edges.push_back({f, e, next_index(e, n, fronts[f].closed)});
+    }
+    return edges;
+  }
+  static std::vector<Box> boxes_of(const std::vector<MovingFront>& fronts,
+                                   const std::vector<FrontEdge>& edges) {
+    std::vector<Box> boxes;
+    for (const FrontEdge& e : edges) {
+      const Mover &a = fronts[e.front].nodes[e.edge], &b = fronts[e.front].nodes[e.next];
+      boxes.push_back({a.from.cwiseMin(a.to).cwiseMin(b.from).cwiseMin(b.to),
+                       a.from.cwiseMax(a.to).cwiseMax(b.from).cwiseMax(b.to)});
+    }
+    return boxes;
+  }
+
+  std::vector<FrontEdge> edges_;
+  BoxTree tree_;
+};
 
 }  // namespace
 
@@ -103,26 +140,24 @@ double segment_distance(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3&
 std::vector<FrontTouch> front_touches(const CrackSheet& sheet, const std::vector<FrontMotion>& motions,
                                       double target_edge) {
   const auto fronts = moving_fronts(sheet, motions);
+  const FrontEdges edges(fronts);
+  constexpr double farthest = std::max({kTouchDistance, kMeetDistance, kMeetOneFront});
   std::vector<FrontTouch> touches_found;
   for (std::size_t f = 0; f < fronts.size(); ++f) {
     const bool closing = closes(fronts[f], target_edge);
     for (std::size_t i = 0; i < fronts[f].nodes.size(); ++i) {
       const Mover& m = fronts[f].nodes[i];
       if (!m.moves || m.state == FrontState::arrested) continue;
-      for (std::size_t g = 0; g < fronts.size(); ++g) {
+      for (const auto& [g, e, next] : edges.near(m, farthest * target_edge)) {
         if (f == g && closing) continue;
-        const std::size_t n = fronts[g].nodes.size();
-        for (std::size_t e = 0; e < edge_count(n, fronts[g].closed); ++e) {
-          const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next_index(e, n, fronts[g].closed)];
-          // Only within a hole do they matter to each other: two ends of a front that come round it.
-          if (a.state == FrontState::outside && b.state == FrontState::outside &&
-              m.state != FrontState::outside)
-            continue;
-          if (f == g && neighbours_on_front(i, e, n, fronts[g].closed)) continue;
-          if (!within_reach(m, a, b, kMeetOneFront * target_edge) || !touches(m, a, b, f == g, target_edge))
-            continue;
+        const Mover &a = fronts[g].nodes[e], &b = fronts[g].nodes[next];
+        // Only within a hole do they matter to each other: two ends of a front that come round it.
+        if (a.state == FrontState::outside && b.state == FrontState::outside &&
+            m.state != FrontState::outside)
+          continue;
+        if (f == g && neighbours_on_front(i, e, fronts[g].nodes.size(), fronts[g].closed)) continue;
+        if (touches(m, a, b, f == g, target_edge))
           touches_found.push_back({f, i, g, e, segment_distance(m.from, m.from, a.from, b.from)});
-        }
       }
     }
   }

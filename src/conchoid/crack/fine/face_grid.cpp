@@ -24,11 +24,25 @@ std::optional<double> crossing(const Vec3& from, const Vec3& to, const Triangle&
 
 }  // namespace
 
+Cell FaceGrid::block_of(const Cell& cell) {
+  return {cell.x >> kBlockBits, cell.y >> kBlockBits, cell.z >> kBlockBits};
+}
+
+std::size_t FaceGrid::place_in_block(const Cell& cell) {
+  constexpr std::int64_t within = (1 << kBlockBits) - 1;
+  return static_cast<std::size_t>((((cell.x & within) << kBlockBits | (cell.y & within)) << kBlockBits) |
+                                  (cell.z & within));
+}
+
 void FaceGrid::take(const TriMesh& mesh, TriId t, int part) {
-  const Triangle x = mesh.triangle(t);
-  const Box box = box_of(x);
-  for_each_cell(cell_of(box.low, cell_), cell_of(box.high, cell_),
-                [&](const Cell& cell) { triangles_[cell].push_back(t); });
+  const Box box = box_of(mesh.triangle(t));
+  for_each_cell(cell_of(box.low, cell_), cell_of(box.high, cell_), [&](const Cell& cell) {
+    const auto [block, is_new] = blocks_.try_emplace(block_of(cell));
+    if (is_new) block->second.fill(-1);
+    std::int32_t& first = block->second[place_in_block(cell)];
+    entries_.push_back({t, first});
+    first = static_cast<std::int32_t>(entries_.size() - 1);
+  });
   part_.push_back(part);
 }
 
@@ -40,9 +54,11 @@ std::optional<FaceGrid::Hit> FaceGrid::first_hit(const TriMesh& mesh, const Vec3
                                                  const std::vector<NodeId>& own) const {
   std::optional<Hit> best;
   for_each_cell(cell_of(from.cwiseMin(to), cell_), cell_of(from.cwiseMax(to), cell_), [&](const Cell& cell) {
-    const auto found = triangles_.find(cell);
-    if (found == triangles_.end()) return;
-    for (const TriId t : found->second) {
+    const auto found = blocks_.find(block_of(cell));
+    if (found == blocks_.end()) return;
+    for (std::int32_t e = found->second[place_in_block(cell)]; e >= 0;
+         e = entries_[static_cast<std::size_t>(e)].next) {
+      const TriId t = entries_[static_cast<std::size_t>(e)].triangle;
       const auto& c = mesh.corners[t];
       if (std::any_of(c.begin(), c.end(),
                       [&](NodeId n) { return std::binary_search(own.begin(), own.end(), n); }))

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -33,9 +35,22 @@ class FaceGrid {
                                const std::vector<NodeId>& own) const;
 
  private:
+  static constexpr int kBlockBits = 3;
+  /// 8 × 8 × 8 cells, the last coordinate first: what lies side by side in the sheet does in memory. Per cell the first of its
+  /// entries, −1: none.
+  using Block = std::array<std::int32_t, 1 << (3 * kBlockBits)>;
+  /// One of the triangles of a cell; the cell's are linked.
+  struct Entry {
+    TriId triangle;
+    std::int32_t next;
+  };
+  static Cell block_of(const Cell& cell);
+  static std::size_t place_in_block(const Cell& cell);
+
   double cell_;
   std::vector<int> part_;  // per triangle
-  std::unordered_map<Cell, std::vector<TriId>, CellHash> triangles_;
+  std::vector<Entry> entries_;
+  std::unordered_map<Cell, Block, CellHash> blocks_;
 };
 
 }  // namespace conchoid

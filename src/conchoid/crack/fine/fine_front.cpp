@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/fine/front_smoothing.hpp"
 #include "conchoid/crack/fine/subdivide.hpp"
 #include "conchoid/crack/front/front_frames.hpp"
@@ -212,15 +213,14 @@ void FineFront::sweep(MarkerCurve& curve, const FrontSteps& steps, const std::ve
 
 void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
                               const std::vector<bool>& inside) const {
-  const std::size_t n = curve.size();
   const double h = settings_.spacing;
-  std::vector<NodeId> own;
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto stop_at_face = [&](std::size_t i) {
     Marker& marker = curve.markers[i];
     const Vec3 way = marker.position - from[i];
     const auto edge = static_cast<std::size_t>(std::max(0.0, marker.parameter));
-    if (marker.arrested || way.isZero(0) || (edge < inside.size() && !inside[edge])) continue;
-    own.clear();
+    if (marker.arrested || way.isZero(0) || (edge < inside.size() && !inside[edge])) return;
+    std::vector<NodeId> own;
+    own.reserve(2 * (kOwnMarkers + 1));
     for (std::size_t k = 0, a = i, b = i; k <= kOwnMarkers; ++k) {
       own.push_back(curve.markers[a].node);
       own.push_back(curve.markers[b].node);
@@ -230,15 +230,19 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
     std::sort(own.begin(), own.end());
     const Vec3 ahead = marker.position + kFaceDistance * h * way.normalized();
     const auto hit = faces_.first_hit(surface_, from[i], ahead, own);
-    if (!hit) continue;
+    if (!hit) return;
     const double length = (ahead - from[i]).norm(), at = hit->fraction * length;
-    if (hit->part != curve.part && at > (1 + kRoundOff) * way.norm()) continue;  // not there yet
+    if (hit->part != curve.part && at > (1 + kRoundOff) * way.norm()) return;  // not there yet
     marker.arrested = true;
     marker.at_own_face = hit->part == curve.part;
     const double stop =
         hit->part == curve.part ? std::max(0.0, at - kFaceDistance * h) : at + kFaceDistance * h;
     marker.position = from[i] + std::min(stop, length) * way.normalized();
-  }
+  };
+  parallel_for(curve.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      stop_at_face(i);
+  });
 }
 
 std::vector<NodeId> FineFront::stopped_nodes() const {
