@@ -1,5 +1,7 @@
 #include <Eigen/Cholesky>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <random>
 
@@ -159,22 +161,19 @@ void appended_ring(benchmark::State& state) {
   if (!definite) state.SkipWithError("not positive definite");
 }
 
-struct GrowingCrack {
-  CutComplex before, after;
-};
-
-// A disc of five rings across the cube's face x-, and what one advance of all its front makes of it.
-GrowingCrack growing_crack(const TriMesh& surface) {
+// A disc of five rings across the body's face x-, and what every further advance of all its front makes of it.
+std::vector<CutComplex> growing_crack(const TriMesh& surface, int frames) {
   CrackSheet sheet;
   append_part(sheet, testing::transformed(testing::disc(0.3, 5), Mat3::Identity(), {-0.49, 0.013, 0.017}));
-  GrowingCrack out;
-  out.before = corefine(surface, sheet.mesh, {0.1});
-  std::vector<FrontMotion> motions;
-  const auto frames = front_frames(sheet, sheet.fronts[0]);
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    motions.push_back({sheet.fronts[0].nodes[i], 0.06 * frames[i].e2});
-  advance(sheet, motions, 0.06, {.smoothing = 0});
-  out.after = corefine(surface, sheet.mesh, {0.1});
+  std::vector<CutComplex> out{corefine(surface, sheet.mesh, {0.1})};
+  for (int frame = 0; frame < frames; ++frame) {
+    std::vector<FrontMotion> motions;
+    const auto at = front_frames(sheet, sheet.fronts[0]);
+    for (std::size_t i = 0; i < at.size(); ++i)
+      motions.push_back({sheet.fronts[0].nodes[i], 0.06 * at[i].e2});
+    advance(sheet, motions, 0.06, {.smoothing = 0});
+    out.push_back(corefine(surface, sheet.mesh, {0.1}));
+  }
   return out;
 }
 
@@ -182,22 +181,22 @@ GrowingCrack growing_crack(const TriMesh& surface) {
 void grown_crack(benchmark::State& state, BodyKind kind) {
   const TriMesh mesh = body_mesh(kind);
   const BoundaryData data = load(mesh, Support::pulled);
-  const GrowingCrack crack = growing_crack(mesh);
+  const std::vector<CutComplex> crack = growing_crack(mesh, 1);
   CrackedBody body = make_cracked_body(mesh, data, kGlassy);
   std::optional<CrackedBody> anew;
   AppendStatistics statistics;
   side_by_side(
       state,
       [&] {
-        body.set_crack(crack.before);
-        const double time = seconds([&] { body.set_crack(crack.after); });
+        body.set_crack(crack[0]);
+        const double time = seconds([&] { body.set_crack(crack[1]); });
         statistics = body.statistics();
         return time;
       },
       [&] {
         return seconds([&] {
           anew.emplace(make_cracked_body(mesh, data, kGlassy));
-          anew->set_crack(crack.after);
+          anew->set_crack(crack[1]);
         });
       });
   body.solve();
@@ -211,6 +210,59 @@ void grown_crack(benchmark::State& state, BodyKind kind) {
   state.counters["assembled"] = static_cast<double>(statistics.assembled);
   state.counters["refactored"] = static_cast<double>(statistics.refactored);
   state.counters["worst_difference"] = difference / largest;
+}
+
+/// Slope of log y over log x by least squares.
+double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double u = std::log(x[i]), v = std::log(y[i]);
+    sx += u, sy += v, sxx += u * u, sxy += u * v;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+// Every frame of a crack that grows through half of the body: seconds over new functions × (nodes of the body + functions of the
+// crack). `exponent` is what they go with. Beside it the last one by a body and a crack made anew.
+void growth(benchmark::State& state) {
+  const int cells = static_cast<int>(state.range(0));
+  const TriMesh mesh = box_mesh({1, 1, 1}, cells, cells, cells);
+  const BoundaryData data = load(mesh, Support::pulled);
+  const std::vector<CutComplex> crack = growing_crack(mesh, 8);
+  std::vector<double> time(crack.size() - 1, std::numeric_limits<double>::infinity()), size(time.size());
+  AppendStatistics last;
+  side_by_side(
+      state,
+      [&] {
+        CrackedBody body = make_cracked_body(mesh, data, kGlassy);
+        body.set_crack(crack[0]);
+        body.solve();
+        for (std::size_t frame = 0; frame < time.size(); ++frame) {
+          const double t = seconds([&] {
+            body.set_crack(crack[frame + 1]);
+            body.solve();
+          });
+          time[frame] = std::min(time[frame], t);
+          last = body.statistics();
+          size[frame] =
+              static_cast<double>(last.assembled) * static_cast<double>(mesh.node_count() + last.functions);
+        }
+        return time.back();
+      },
+      [&] {
+        return seconds([&] {
+          CrackedBody body = make_cracked_body(mesh, data, kGlassy);
+          body.set_crack(crack.back());
+          body.solve();
+        });
+      });
+  state.counters["body_nodes"] = static_cast<double>(mesh.node_count());
+  state.counters["functions"] = static_cast<double>(last.functions);
+  state.counters["assembled"] = static_cast<double>(last.assembled);
+  state.counters["first_frame_ms"] = 1e3 * time.front();
+  state.counters["ns_per_pair"] = 1e9 * time.back() / size.back();
+  state.counters["exponent"] = exponent(size, time);
 }
 
 }  // namespace
@@ -245,5 +297,6 @@ BENCHMARK_CAPTURE(grown_crack, box_972, BodyKind::thousand)
     ->Iterations(1)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(growth)->Arg(6)->Arg(12)->Iterations(2)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace conchoid::bench

@@ -53,7 +53,7 @@ def table(path):
     print("# Benchmark results\n")
     print(f"`{os.path.basename(path)}`: {context.get('cores', context['num_cpus'])} cores, "
           f"{context.get('processor', 'processor unknown')}, {context['date'][:10]}. "
-          f"Load average at the start (1, 5, 15 minutes): {load}. The machine is shared and noisy: "
+          f"c (bench/calibrate.cpp) {context.get('calibration', 'unknown')} s, load average (1, 5, 15 minutes) {load}, at the start. The machine is shared and noisy: "
           "times may be off by half, the ratio — slow way over fast path, timed in turns in the same run — is what "
           "counts. What is measured: [docs/benchmarks.md](../../docs/benchmarks.md).\n")
     row("benchmark", "fast [ms]", "slow [ms]", "ratio", "also")

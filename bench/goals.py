@@ -10,9 +10,13 @@ import argparse
 import json
 import pathlib
 import platform
+import shutil
+import statistics
 import subprocess
 import tempfile
 import time
+
+import curves
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 THREE_POINT = """
@@ -96,10 +100,11 @@ class Goals:
     def wanted(self, name):
         return not self.only or any(word in name for word in self.only)
 
-    def row(self, name, goal, reached, unit, remark=""):
-        ratio = "" if reached is None else f"{reached / goal:.2f}"
+    def row(self, name, goal, reached, unit, remark="", at_least=False):
+        """`ratio`: 1 or less where the goal is reached."""
+        ratio = "" if reached is None else f"{goal / reached if at_least else reached / goal:.2f}"
         shown = "failed" if reached is None else f"{reached:.3g} {unit}"
-        print(f"{name:44} {f'{goal:g} {unit}':>12} {shown:>12} {ratio:>7}   {remark}", flush=True)
+        print(f"{name:44} {f'{goal:.3g} {unit}':>12} {shown:>12} {ratio:>7}   {remark}", flush=True)
 
     def timed(self, name, goal, command, remark=lambda out: "", share=1.0):
         """A command in units of c; `share` of what the goal asks for is done."""
@@ -127,7 +132,7 @@ class Goals:
 
     def pairs(self):
         for case, name, goal in (("near", "near-singular pair", 60), ("common_vertex", "common vertex", 10),
-                                 ("common_edge", "common edge", 8), ("far", "far pair", 1 / 12)):
+                                 ("common_edge", "common edge", 8), ("coincident", "coincident pair", 3), ("far", "far pair", 1 / 12)):
             if not self.wanted(name):
                 continue
             for pairs, said in ((case, "single layer, one core, to 1e-6"), (case + "_of_cracks", "to 1e-4, as with cracks")):
@@ -145,6 +150,54 @@ class Goals:
                 c = self.unit()
                 taken = self.benchmarks(f"training_on_a_million/{trees}/{depth}/")[0]["fast_ms"] / 1e3
                 self.row(name, goal, taken / c, "c", f"c {c:.3f} s; a million samples, {taken:.1f} s")
+
+    def scaling(self):
+        """What cutting, growing and fronts cost for each thing that comes out or is new, and how that grows."""
+        if self.wanted("cutting"):
+            cut = self.benchmarks("fragments/256/")[0]
+            self.row("cutting, a triangle that comes out", 1.5, cut["processor_us"], "µs", "all threads together")
+            self.row("cutting, exponent of triangles", 1, cut["exponent"], "", "8,192 to 131,072 of the sheet")
+        if self.wanted("growth"):
+            for of_body in self.benchmarks("growth/"):
+                self.row("growth, exponent of new × (body + crack)", 1, of_body["exponent"], "",
+                         f"body of {of_body['body_nodes']:.0f} nodes, {of_body['functions']:.0f} functions in the end")
+        if self.wanted("fronts"):
+            long = self.benchmarks("front_length/2400/")[0]
+            self.row("fronts, exponent of their length", 1, long["exponent"], "", f"to {long['front_nodes']:.0f} nodes")
+            late = self.benchmarks("cracked_before/")[0]
+            self.row("fronts, a node behind 40 frames over one now", 1, 1 / late["ratio"], "",
+                     f"{late['fine_triangles'] / 1e6:.1f} million triangles swept")
+
+    def sizes(self):
+        """Predicted frames over the size of a body, as bench/curves.py."""
+        of = curves.Curves(self.conchoid.parent, self.rounds, self.folder)
+        for size, goal in ((1000, 3), (5000, 10)):
+            name = f"predicted frames, {size:,} triangles"
+            if self.wanted(name):
+                row = of.row(size)
+                self.row(name, goal, row["solved"][1] / row["predicted"][1], "×",
+                         f"{1e3 * row['solved'][1]:.0f} ms a frame solved, {1e3 * row['predicted'][1]:.1f} predicted", at_least=True)
+        if self.wanted("memory"):
+            (self.folder / "huge.toml").write_text(curves.SCENE.format(size=10000))
+            took, memory = of.run("stress", "huge.toml")
+            self.row("10,000 triangles, memory", 12, memory, "GB", f"set up in {took:.0f} s")
+
+    def armadillo_frames(self, scene):
+        """Predicted frames of the scan, all but the first, which is solved; the last two cut the body."""
+        name = "armadillo, predicted frames"
+        if not self.wanted(name):
+            return
+        (self.folder / "scan.toml").write_text(scene)
+        least = None
+        for _ in range(self.rounds):
+            shutil.rmtree(self.folder / "scan", ignore_errors=True)
+            seconds([self.conchoid, "run", "scan.toml", "--out", "scan", "--cache", "cache", "--quiet", "--threads", "2",
+                     "--method", "network", "--database", "armadillo"], self.folder)
+            timings = json.loads((self.folder / "scan/run.json").read_text())["timings"][1:]
+            taken = [1e3 * sum(frame["seconds"].values()) for frame in timings]
+            if least is None or sum(taken) < sum(least):
+                least = taken
+        self.row(name, 16, statistics.mean(least), "ms", "mean; each " + ", ".join(f"{t:.0f}" for t in least))
 
     def front_points(self):
         name = "prediction of 1,000 front points"
@@ -170,11 +223,14 @@ def main():
             scene = armadillo(options.scan.resolve())
             goals.run("armadillo, cold", 0.9, scene)
             goals.run("armadillo, from the cache", 0.35, scene, "--cache", "cache")
+            goals.armadillo_frames(scene)
         bar = example("bar", crack=0.004, surface=0.0002)
         goals.run("notched bar", 2, bar[:bar.index("[[boundary]]")] + THREE_POINT + "[run]\nframes = 20\n")
+        goals.scaling()
         goals.pairs()
         (folder / "large.toml").write_text(example("cube").replace('model = "cube"', 'model = "cube"\nremesh = 5000'))
         goals.timed("5,000 triangles set up", 12, [goals.conchoid, "stress", "large.toml", "--json", "--quiet", "--threads", "2"])
+        goals.sizes()
         spec = (ROOT / "examples/cube-database.toml").read_text()
         (folder / "spec.toml").write_text(spec)
         runs = 75

@@ -15,7 +15,7 @@ namespace conchoid::bench {
 namespace {
 
 const double kBody = BemSettings{}.quadrature_tolerance, kCrack = crack_tolerance(kBody);
-enum class Layout { far, common_edge, common_vertex, near };
+enum class Layout { far, coincident, common_edge, common_vertex, near };
 
 struct Pair {
   Panel x, y;
@@ -40,6 +40,11 @@ std::vector<Pair> far_pairs_of_a_sphere(double tolerance) {
 std::vector<Pair> pairs_of(Layout layout, double tolerance) {
   if (layout == Layout::far) return far_pairs_of_a_sphere(tolerance);
   std::vector<Pair> pairs;
+  if (layout == Layout::coincident) {  // well shaped and slim
+    for (const auto& p : oracle::common_edge_pairs())
+      pairs.insert(pairs.end(), {{p.x, p.x}, {p.y, p.y}});
+    return pairs;
+  }
   for (const auto& p : layout == Layout::common_edge     ? oracle::common_edge_pairs()
                        : layout == Layout::common_vertex ? oracle::common_vertex_pairs()
                                                          : oracle::near_pairs())
@@ -124,6 +129,7 @@ void double_layer(benchmark::State& state, Layout layout, double tolerance) {
       ->Unit(benchmark::kMillisecond)
 
 CONCHOID_BENCHMARK_PAIRS(single_layer, far, 20);
+CONCHOID_BENCHMARK_PAIRS(single_layer, coincident, 10);
 CONCHOID_BENCHMARK_PAIRS(single_layer, common_edge, 10);
 CONCHOID_BENCHMARK_PAIRS(single_layer, common_vertex, 10);
 CONCHOID_BENCHMARK_PAIRS(single_layer, near, 10);

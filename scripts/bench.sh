@@ -11,10 +11,10 @@ if [ ! -f "$build/CMakeCache.txt" ]; then
   cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release
 fi
 cmake -B "$build" -DCONCHOID_BUILD_BENCH=ON
-cmake --build "$build" --target conchoid_bench
+cmake --build "$build" --target conchoid_bench calibrate
 
 if [ "${1:-}" = --goals ]; then
-  cmake --build "$build" --target conchoid calibrate
+  cmake --build "$build" --target conchoid
   exec python3 bench/goals.py "$build" "${@:2}"
 fi
 
@@ -23,7 +23,7 @@ machine=${MACHINE:-$(printf '%s-%s-cores' "${processor:-$(uname -m)}" "$(nproc)"
   tr '[:upper:]' '[:lower:]' | tr -cs 'a-z0-9\n' '-' | sed 's/^-//; s/-$//')}
 result=bench/results/$(date +%F)-$machine.json
 "$build/conchoid_bench" --benchmark_out="$result.part" --benchmark_out_format=json \
-  --benchmark_context=processor="${processor:-unknown}",cores="$(nproc)" "$@"
+  --benchmark_context=processor="${processor:-unknown}",cores="$(nproc)",calibration="$("$build/calibrate" | cut -d' ' -f1)" "$@"
 mv "$result.part" "$result"
 python3 bench/compare.py --table "$result" > bench/results/README.md
 echo "bench: $result"
