@@ -12,12 +12,15 @@
 #include "conchoid/core/context.hpp"
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/formats/formats.hpp"
+#include "conchoid/remesh/remesh.hpp"
 #include "conchoid/remesh/validate.hpp"
 #include "conchoid/sim/fracture.hpp"
 #include "conchoid/sim/generate.hpp"
 #include "conchoid/sim/make_runs.hpp"
 #include "conchoid/sim/world_bodies.hpp"
 #include "refusal.hpp"
+#include "scans.hpp"
 #include "temporary_folder.hpp"
 
 namespace conchoid {
@@ -141,6 +144,77 @@ TEST(World, WhatDoesNotGoWithItIsRefused) {
   EXPECT_NE(error_of(world + "magnitude = [1.0, 2.0]\n").find("database.magnitude does not go with [world]"),
             std::string::npos);
   EXPECT_NE(error_of("[world]\nclasses = ['teapot']\n[database]\n").find("world.toml:2"), std::string::npos);
+}
+
+const std::filesystem::path kSmallScan = test::scans().front().file;
+
+// Meshes beside the specification: a scan, and with it all other classes where none are named.
+class WorldOfScans : public testing::Test {
+ protected:
+  WorldOfScans() { std::filesystem::copy_file(kSmallScan, folder / "statue.ply"); }
+  DatabaseSpec parse(const std::string& text) const {
+    return parse_database_spec(text, "world.toml", folder.path());
+  }
+  std::string error_of(const std::string& text) const {
+    return test::refusal([&] { parse(text); });
+  }
+  test::TemporaryFolder folder;
+};
+
+TEST_F(WorldOfScans, BodiesAreDecimatedAndDrawnOut) {
+  const WorldSpec world = *parse("[world]\nscans = ['statue.ply']\nelements = 150\n[database]\n").world;
+  EXPECT_EQ(world.classes.size(), body_class_names().size() + 1);
+  EXPECT_EQ(world.classes.back(), "scan");
+  ASSERT_EQ(world.scans.size(), 1u);
+  EXPECT_LE(world.scans[0].triangle_count(), 3300u);
+  std::set<double> volumes;
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    Random one(seed), same(seed);
+    const RandomBody body = random_scan(world.scans, 150, one), again = random_scan(world.scans, 150, same);
+    EXPECT_EQ(body.surface.positions, again.surface.positions);
+    EXPECT_NO_THROW(require_valid_body(body.surface, "scan"));
+    EXPECT_GT(body.surface.triangle_count(), 130u);
+    EXPECT_LT(body.surface.triangle_count(), 2000u);
+    const Box box = bounding_box(body.surface);
+    EXPECT_GT((box.high - box.low).maxCoeff(), 0.75);
+    EXPECT_LT((box.high - box.low).maxCoeff(), 1.3);
+    EXPECT_GT(body.thickness, 0.01);
+    EXPECT_LT(body.thickness, 0.5);
+    volumes.insert(enclosed_volume(body.surface));
+  }
+  EXPECT_EQ(volumes.size(), 2u);
+}
+
+TEST_F(WorldOfScans, ADatabaseIsOfTheScansItWasBegunWith) {
+  const std::string text =
+      "[world]\nclasses = ['scan']\nscans = ['statue.ply']\nruns_per_body = 2\nelements = 100\n"
+      "[database]\nruns = 2\nseed = 3\nframes = 3\n";
+  generate_database(parse(text), {.out = folder / "one.h5"});
+  generate_database(parse(text), {.out = folder / "two.h5"});
+  const Database one = read_database(folder / "one.h5");
+  EXPECT_EQ(one.hash(), read_database(folder / "two.h5").hash());
+  EXPECT_EQ(one.body_classes(), std::set<std::string>{"scan"});
+  EXPECT_NE(one.header.files, 0u);
+  EXPECT_TRUE(std::any_of(one.runs.begin(), one.runs.end(), [](const RunRecord& r) { return r.frames > 0; }));
+
+  TriMesh other = read_surface(kSmallScan).mesh;
+  for (Vec3& x : other.positions)
+    x.z() *= 1.01;
+  write_mesh(folder / "statue.ply", other);
+  const std::string refused =
+      test::refusal([&] { generate_database(parse(text), {.out = folder / "one.h5", .resume = true}); });
+  EXPECT_NE(refused.find("another specification or meshes"), std::string::npos) << refused;
+}
+
+TEST_F(WorldOfScans, ScansAndTheirClassGoTogether) {
+  EXPECT_NE(error_of("[world]\nclasses = ['scan']\n[database]\n").find("world.toml:2"), std::string::npos);
+  EXPECT_NE(error_of("[world]\nclasses = ['box']\nscans = ['statue.ply']\n[database]\n").find("add \"scan\""),
+            std::string::npos);
+  EXPECT_NE(error_of("[world]\nscans = ['vase.ply']\n[database]\n").find("vase.ply"), std::string::npos);
+  TriMesh open = read_surface(kSmallScan).mesh;
+  open.corners.pop_back();
+  write_mesh(folder / "open.ply", open);
+  EXPECT_NE(error_of("[world]\nscans = ['open.ply']\n[database]\n").find("open.ply"), std::string::npos);
 }
 
 // A database that is closed early holds the first runs, whatever the number of threads, not some of each thread's share.

@@ -135,6 +135,7 @@ void write_header(const H5::Group& root, const Database& database) {
   write_attribute(root, "complete", static_cast<std::int32_t>(database.complete()));
   write_texts(root, "models", h.models);
   write_texts(root, "spec", {h.spec});
+  if (h.files != 0) write_attribute(root, "files", h.files);
 }
 
 DatabaseHeader read_header(const H5::Group& root) {
@@ -152,6 +153,7 @@ DatabaseHeader read_header(const H5::Group& root) {
   const auto spec = read_texts(root, "spec");
   if (spec.size() != 1) throw InputError("its specification is missing");
   h.spec = spec[0];
+  if (root.attrExists("files")) h.files = read_attribute<std::uint64_t>(root, "files");
   return h;
 }
 

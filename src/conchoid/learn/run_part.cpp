@@ -65,6 +65,7 @@ std::string header_text(const DatabaseHeader& h, bool with_shard) {
       {"planned_runs", h.planned_runs}};
   for (const SampleField& f : SampleSet::fields())
     j["fields"].push_back(std::string(f.name));
+  if (h.files != 0) j["files"] = h.files;
   if (with_shard) j["shard"] = {h.shard, h.shards};
   return j.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

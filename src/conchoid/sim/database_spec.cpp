@@ -74,17 +74,31 @@ void require_nothing_beside_world(const TomlTable& file, const TomlTable& databa
                     fmt::format("database.{} does not go with [world], which draws loads; remove it", key));
 }
 
-WorldSpec read_world(const TomlTable& table) {
+// @param files  those that it names are appended
+WorldSpec read_world(const TomlTable& table, const std::filesystem::path& folder,
+                     std::vector<std::filesystem::path>& files) {
   table.require_known_keys();
   WorldSpec world;
-  for (const std::string_view name : body_class_names())
+  std::vector<std::string> scans;
+  table.read("scans", scans);
+  for (const std::string_view name : scans.empty() ? body_class_names() : world_class_names())
     world.classes.emplace_back(name);
   table.read("classes", world.classes);
   if (world.classes.empty())
     table.fail("classes", "world.classes is empty; name one, or leave it out for all");
+  const bool wanted =
+      std::find(world.classes.begin(), world.classes.end(), kScanClass) != world.classes.end();
+  if (wanted && scans.empty())
+    table.fail("classes", "bodies of the class \"scan\" are made from meshes; name some as world.scans");
+  if (!wanted && !scans.empty())
+    table.fail("scans", "no body is made from these; add \"scan\" to world.classes, or remove them");
   table.read("runs_per_body", world.runs_per_body);
   table.read("elements", world.elements);
   table.read("cracked", world.cracked);
+  for (const std::string& name : scans) {
+    files.push_back(existing_file(table, "scans", name, folder));
+    world.scans.push_back(scan_of(body_from_file(files.back()).detailed, world.elements));
+  }
   return world;
 }
 
@@ -101,7 +115,7 @@ DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
   DatabaseSpec spec;
   if (const auto world = file.table("world")) {
     require_nothing_beside_world(file, *table);
-    spec.world = read_world(*world);
+    spec.world = read_world(*world, folder, spec.files);
     spec.scene.file = name;
     spec.exclusion.alpha_limit = 90;
   } else {
@@ -111,6 +125,9 @@ DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
                                "model = \"infinite\" has no surface to pull at; choose another model");
     if (const auto run = file.table("run"); run && run->has("frames"))
       run->fail("frames", "in a database specification the frames are given in [database]; move it there");
+    if (!spec.scene.body.mesh.empty()) spec.files.push_back(spec.scene.body.mesh);
+    for (const CrackSpec& crack : spec.scene.cracks)
+      if (!crack.file.empty()) spec.files.push_back(crack.file);
     read_loads(*table, spec);
     table->read("exclude_above", spec.exclusion.alpha_limit);
   }

@@ -24,7 +24,8 @@ struct DatabaseSpec {
   std::array<double, 2> slope{0, 90};      ///< α [degree]
   std::array<double, 2> rotation{0, 360};  ///< β [degree]
   ExclusionSettings exclusion;
-  std::optional<WorldSpec> world;  ///< everything is drawn at random; none: as above
+  std::optional<WorldSpec> world;            ///< everything is drawn at random; none: as above
+  std::vector<std::filesystem::path> files;  ///< meshes that it names
 };
 
 /// What a body is called in databases: its model, or the name of its file.

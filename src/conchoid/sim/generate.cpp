@@ -27,6 +27,8 @@ DatabaseHeader make_header(const DatabaseSpec& spec, const GenerateOptions& opti
                        m.strength,       m.toughness,     m.compressive_factor};
   header.resolution = spec.scene.resolution.crack.value_or(0);
   header.spec = spec.scene.text;
+  for (const std::filesystem::path& file : spec.files)
+    header.files = hash_bytes(read_bytes(file), header.files);
   header.seed = spec.seed;
   header.planned_runs = spec.runs;
   header.shard = options.shard;

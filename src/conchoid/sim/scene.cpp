@@ -217,6 +217,11 @@ RunSpec read_run(const TomlTable& file) {
 fs::path existing_file(const TomlTable& table, std::string_view key, const fs::path& folder) {
   std::string name;
   table.require(key, name);
+  return existing_file(table, key, name, folder);
+}
+
+fs::path existing_file(const TomlTable& table, std::string_view key, const std::string& name,
+                       const fs::path& folder) {
   const fs::path path = folder / name;
   if (!fs::is_regular_file(path))
     table.fail(key, fmt::format("there is no file {}; file names are relative to the scene's folder",

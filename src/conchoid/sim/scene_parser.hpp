@@ -13,6 +13,9 @@ std::string read_text_file(const std::filesystem::path& path);
 /// The file that `key` names. Throws InputError when it is not there. @param folder  of the scene
 std::filesystem::path existing_file(const TomlTable& table, std::string_view key,
                                     const std::filesystem::path& folder);
+/// One of the files that `key` names.
+std::filesystem::path existing_file(const TomlTable& table, std::string_view key, const std::string& name,
+                                    const std::filesystem::path& folder);
 
 /// Throws InputError for a key that does not belong to the table's kind.
 /// @param name  of the table, for messages; @param kinds_of_key  keys that belong to some kinds only

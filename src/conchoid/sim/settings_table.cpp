@@ -494,10 +494,14 @@ const std::vector<Setting>& settings() {
        texts,
        "",
        "",
-       "classes of bodies, drawn in turn; without it all of them",
+       "classes of bodies, drawn in turn; without it all of them, scan where there are scans",
        {},
        0,
-       body_class_names()},
+       world_class_names()},
+      {"world", "scans", texts, "", "",
+       "mesh files that bodies of the class scan are made from: drawn out and decimated; paths are relative "
+       "to the "
+       "specification"},
       {"world", "runs_per_body", integer, "runs", "4", "loads on each body, one run each",
        between(1, 100000)},
       {"world", "elements", integer, "triangles", "240", "BEM triangles wanted per body", between(60, 20000)},

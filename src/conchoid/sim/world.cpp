@@ -199,7 +199,8 @@ WorldBody draw_world_body(const WorldSpec& world, std::uint64_t seed, int body) 
   WorldBody out;
   out.body_class = world.classes[static_cast<std::size_t>(body) % world.classes.size()];
   out.scene.file = "[world], body " + std::to_string(body) + " (" + out.body_class + ")";
-  const RandomBody drawn = random_body(out.body_class, world.elements, random);
+  const RandomBody drawn = out.body_class == kScanClass ? random_scan(world.scans, world.elements, random)
+                                                        : random_body(out.body_class, world.elements, random);
   out.axis = drawn.axis;
   out.body.name = out.scene.file;
   out.body.surface = out.body.detailed = drawn.surface;

@@ -16,6 +16,7 @@ struct WorldSpec {
   int runs_per_body = 4;  ///< loads on each body: run i is of body i / runs_per_body
   int elements = 240;     ///< boundary elements wanted per body
   double cracked = 0.3;   ///< share of the bodies that have a crack from the start
+  std::vector<TriMesh> scans = {};  ///< what bodies of the class "scan" are made from (scan_of())
 };
 
 /// One body of a world with everything that its runs have in common. All lengths are about a metre; E, ν and the

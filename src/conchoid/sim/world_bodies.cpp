@@ -12,10 +12,16 @@
 #include "conchoid/mesh/polygon_triangles.hpp"
 #include "conchoid/mesh/turned_bodies.hpp"
 #include "conchoid/remesh/remesh.hpp"
+#include "conchoid/remesh/wall_resolution.hpp"
 #include "conchoid/surface/convex_hull.hpp"
 
 namespace conchoid {
 namespace {
+
+constexpr int kScanTriangles = 20;  // of a scan for each element
+constexpr int kScanAttempts = 6;
+constexpr double kScanRise = 1.2;      // of the elements asked for, from one attempt to the next
+constexpr double kScanStretch = 1.25;  // at most, of each extent
 
 // Edge of so many equilateral triangles on a surface.
 double edge_for(double area, int elements) {
@@ -181,11 +187,56 @@ const std::vector<std::string_view>& body_class_names() {
   return names;
 }
 
+const std::vector<std::string_view>& world_class_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all = body_class_names();
+    all.push_back(kScanClass);
+    return all;
+  }();
+  return names;
+}
+
 RandomBody random_body(std::string_view body_class, int elements, Random& random) {
   for (const BodyClass& c : classes)
     if (c.name == body_class) return c.draw(elements, random);
   throw InputError(fmt::format("there is no class of bodies \"{}\"; choose from {}", body_class,
                                fmt::join(body_class_names(), ", ")));
+}
+
+namespace {
+
+// As many triangles as wanted, or as a shape of limbs and folds needs: what it allows grows with what it is asked for.
+TriMesh decimated(const TriMesh& mesh, int wanted) {
+  for (int attempt = 0;; ++attempt)
+    try {
+      return remesh(mesh, wanted);
+    } catch (const TriangleCountError& error) {
+      if (attempt == kScanAttempts) throw;
+      wanted = std::max(static_cast<int>(error.allowed()), static_cast<int>(kScanRise * wanted));
+    }
+}
+
+}  // namespace
+
+TriMesh scan_of(TriMesh body, int elements) {
+  const Box box = bounding_box(body);
+  for (Vec3& x : body.positions)
+    x = (x - box.center()) / (box.high - box.low).maxCoeff();
+  const int enough = kScanTriangles * elements;
+  return body.triangle_count() <= static_cast<std::size_t>(enough) ? body : decimated(body, enough);
+}
+
+RandomBody random_scan(const std::vector<TriMesh>& scans, int elements, Random& random) {
+  TriMesh mesh = scans[random.index(scans.size())];
+  Vec3 stretch;
+  for (double& factor : stretch)
+    factor = std::pow(kScanStretch, random.uniform(-1, 1));
+  for (Vec3& x : mesh.positions)
+    x = x.cwiseProduct(stretch);
+  RandomBody body{decimated(mesh, elements), random.unit_vector(), 0};
+  const double across = bounding_box(body.surface).diagonal();
+  body.thickness = thinnest_wall(body.surface, across).value_or(across);
+  return body;
 }
 
 }  // namespace conchoid

@@ -29,9 +29,21 @@ struct RandomBody {
 ///   polyhedron  convex hull of random points
 const std::vector<std::string_view>& body_class_names();
 
+/// The class of bodies that are not made up: scans, drawn out and decimated.
+inline constexpr std::string_view kScanClass = "scan";
+/// The names above and that.
+const std::vector<std::string_view>& world_class_names();
+
 /// @param elements  wanted number of triangles, met within a factor of about 1.5
 /// Throws InputError for an unknown class, with the known ones, and ComputationError where the body drawn
 /// cannot be meshed.
 RandomBody random_body(std::string_view body_class, int elements, Random& random);
+
+/// A body as the class "scan" starts from it: its longest extent one metre, the middle of its box at the origin, and no more
+/// than 20 triangles for each element wanted, or as many as its shape needs.
+TriMesh scan_of(TriMesh body, int elements);
+/// One of some scans, each of its extents drawn out by 0.8 to 1.25, with an axis of any direction, of so many elements or as many
+/// as its shape needs. Throws ComputationError where it cannot be meshed.
+RandomBody random_scan(const std::vector<TriMesh>& scans, int elements, Random& random);
 
 }  // namespace conchoid
