@@ -233,7 +233,10 @@ void CellGrid::list_inside_cells() {
       at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));
       if (at == nullptr) break;
     }
-    inside_cells_.push_back({static_cast<std::uint32_t>(at - first), {-1, -1, -1}});
+    const auto cell = static_cast<std::uint32_t>(at - first);
+    const unsigned walls = wall_[cell];
+    inside_cells_.push_back(
+        {cell, {-1, -1, -1}, static_cast<std::uint8_t>((walls / kSurface | walls / kSheet) & 7U)});
   }
   parallel_for(3, 1, [&](std::size_t axis, std::size_t) {
     std::size_t ahead = 0;

@@ -22,6 +22,10 @@ struct InsideCell {
   std::uint32_t cell = 0;
   /// Along each axis, as a place among the cells inside; −1 outside.
   std::array<std::int32_t, 3> next{-1, -1, -1};
+  /// Axes along which something stands between this cell and the next one: bit 0, 1, 2.
+  std::uint8_t walls = 0;
+
+  bool open(int axis) const { return (walls & 1U << axis) == 0; }
 };
 
 /// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
@@ -58,8 +62,15 @@ class CellGrid {
   /// The place of a cell among these; −1 outside of the body.
   std::int32_t number(std::size_t cell) const;
 
-  /// Whether nothing stands between a cell and the next one along an axis.
-  bool open(std::size_t cell, int axis) const { return (wall_[cell] & (kSurface | kSheet) << axis) == 0; }
+  /// Numbers of the cells inside as numbers of all cells, 0 outside.
+  template <class Number>
+  std::vector<Number> by_cell(const std::vector<Number>& of_inside) const {
+    std::vector<Number> all(cells(), 0);
+    for (std::size_t i = 0; i < of_inside.size(); ++i)
+      all[inside_cells_[i].cell] = of_inside[i];
+    return all;
+  }
+
   /// Whether a crack, not the body's surface alone, stands between the two.
   bool cracked(std::size_t cell, int axis) const { return (wall_[cell] & kSheet << axis) != 0; }
   /// By cell, axis, then depth.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/closing/cell_sets.hpp"
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/closest_point.hpp"
@@ -29,8 +30,8 @@ std::optional<std::size_t> cell_at(const CellGrid& grid, const Vec3& place) {
   return grid.cell(at[0], at[1], at[2]);
 }
 
-// Cells within kLigamentBand of the cracks' ends inside of the body.
-std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
+// Per cell inside whether it is within kLigamentBand of the cracks' ends inside of the body.
+std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
   std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
   const double reach = kLigamentBand * target_edge / grid.size();
   for (const Edge& e : boundary_edges(sheets)) {
@@ -40,34 +41,35 @@ std::vector<bool> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets,
     done[*here] = true;
     grid.mark_near(x, reach, band);
   }
-  return band;
+  std::vector<std::uint8_t> of_inside;
+  of_inside.reserve(grid.inside_cells().size());
+  for (const InsideCell& c : grid.inside_cells())
+    of_inside.push_back(band[c.cell]);
+  return of_inside;
 }
 
 // Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side: nothing
 // would come off there.
 void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
-  const std::vector<InsideCell>& inside = grid.inside_cells();
-  const CellSets sets = sets_of_cells(grid, [&](std::size_t i, int, std::size_t next) {
-    return side[inside[i].cell] == side[inside[next].cell];
-  });
+  const CellSets sets =
+      sets_of_cells(grid, [&](std::size_t i, int, std::size_t next) { return side[i] == side[next]; });
   std::vector<int> cells(static_cast<std::size_t>(sets.count), 0);
   for (const std::int32_t set : sets.of_cell)
     ++cells[static_cast<std::size_t>(set)];
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    if (std::int8_t& s = side[inside[i].cell];
-        cells[static_cast<std::size_t>(sets.of_cell[i])] < kFewestCells)
-      s = static_cast<std::int8_t>(-s);
+  for (std::size_t i = 0; i < side.size(); ++i)
+    if (cells[static_cast<std::size_t>(sets.of_cell[i])] < kFewestCells)
+      side[i] = static_cast<std::int8_t>(-side[i]);
 }
 
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
   std::vector<Vec3> faces;
   const std::vector<InsideCell>& inside = grid.inside_cells();
-  for (const InsideCell& c : inside)
+  for (std::size_t i = 0; i < inside.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
-      if (c.next[axis] < 0) continue;
-      const std::size_t d = inside[static_cast<std::size_t>(c.next[axis])].cell;
-      if (partition.side[c.cell] != partition.side[d] && grid.open(c.cell, axis))
-        faces.push_back(0.5 * (grid.center(c.cell) + grid.center(d)));
+      if (inside[i].next[axis] < 0) continue;
+      const auto n = static_cast<std::size_t>(inside[i].next[axis]);
+      if (partition.side[i] != partition.side[n] && inside[i].open(axis))
+        faces.push_back(0.5 * (grid.center(inside[i].cell) + grid.center(inside[n].cell)));
     }
   return faces;
 }
@@ -91,9 +93,7 @@ class Walls {
 std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
                                         Walls& walls) {
   remove_specks(*grid, partition.side);
-  std::ptrdiff_t upper = 0;
-  for (const InsideCell& c : grid->inside_cells())
-    upper += partition.side[c.cell] > 0;
+  const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
   const std::ptrdiff_t lower = static_cast<std::ptrdiff_t>(grid->inside_cells().size()) - upper;
   if (std::min(upper, lower) < kFewestCells) return std::nullopt;
   LastLigament out;
@@ -114,7 +114,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
                                               LigamentsOf of) {
   if (sheets.corners.empty()) return {};
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
-  const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
+  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, target_edge);
   const std::vector<int> part = connected_parts(sheets);
   Walls walls(body, sheets);
   std::vector<LastLigament> found;
@@ -136,12 +136,14 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
                                                const LastLigament& elsewhere) {
   if (sheets.corners.empty()) return std::nullopt;
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
-  const std::vector<bool> band = cells_near_fronts(*grid, sheets, target_edge);
-  std::vector<std::int8_t> known(grid->cells(), 0);
-  for (const InsideCell& c : grid->inside_cells())
-    if (!band[c.cell])
-      if (const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(c.cell))))
-        known[c.cell] = elsewhere.partition.side[*there];
+  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, target_edge);
+  const std::vector<std::int8_t> sides = elsewhere.grid->by_cell(elsewhere.partition.side);
+  const std::vector<InsideCell>& inside = grid->inside_cells();
+  const auto known = parallel_values(inside.size(), 4096, [&](std::size_t i) -> std::int8_t {
+    if (band[i]) return 0;
+    const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(inside[i].cell)));
+    return there ? sides[*there] : 0;
+  });
   const std::vector<bool> all(sheets.triangle_count(), true);
   Walls walls(body, sheets);
   return ligament_of(grid, minimal_cut(*grid, all, band, known), walls);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/length_factors.hpp"
 #include "conchoid/mesh/box_tree.hpp"
@@ -52,37 +53,45 @@ void for_neighbours(const CellGrid& grid, std::size_t cell, const Visit& visit) 
       }
 }
 
-// Cells with a side of their own, or with a neighbour that has one: the cells are spread along one axis after the other.
-std::vector<std::uint8_t> beside_known(const CellGrid& grid, const std::vector<std::int8_t>& side) {
-  const auto& count = grid.count();
-  const auto row = static_cast<std::size_t>(count[2]), plane = row * static_cast<std::size_t>(count[1]);
-  std::vector<std::uint8_t> known(side.size()), spread(side.size());
-  for (std::size_t c = 0; c < side.size(); ++c)
-    known[c] = side[c] != 0;
-  const auto along = [&](std::size_t step, std::size_t length) {  // lines of `length` cells, `step` apart
-    for (std::size_t block = 0; block < side.size(); block += step * length)
-      for (std::size_t i = 0; i < length; ++i)
-        for (std::size_t c = block + i * step; c < block + (i + 1) * step; ++c)
-          spread[c] = known[c] | (i > 0 ? known[c - step] : 0) | (i + 1 < length ? known[c + step] : 0);
-    known.swap(spread);
-  };
-  along(1, row);
-  along(row, static_cast<std::size_t>(count[1]));
-  along(plane, static_cast<std::size_t>(count[0]));
-  return known;
+// Cells inside of the body with a neighbour along an axis that is not.
+std::vector<std::size_t> rim_of(const CellGrid& grid) {
+  const std::vector<InsideCell>& inside = grid.inside_cells();
+  std::vector<std::uint8_t> neighbours(inside.size(), 0);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    for (const std::int32_t next : inside[i].next)
+      if (next >= 0) {
+        ++neighbours[i];
+        ++neighbours[static_cast<std::size_t>(next)];
+      }
+  std::vector<std::size_t> rim;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (neighbours[i] < 6) rim.push_back(inside[i].cell);
+  return rim;
 }
 
-// Sides of the cells around the body: as those next to them inside.
-std::vector<std::int8_t> spread_outside(const CellGrid& grid, std::vector<std::int8_t> side) {
+// Sides of all cells, those around the body as those next to them inside.
+std::vector<std::int8_t> spread_outside(const CellGrid& grid, const std::vector<std::int8_t>& of_inside) {
+  constexpr std::int8_t reached = 2;
+  std::vector<std::int8_t> side = grid.by_cell(of_inside);
+  std::vector<std::size_t> rim = rim_of(grid);
   for (int round = 0; round < kCellsOutside; ++round) {
-    const std::vector<std::int8_t> before = side;
-    const std::vector<std::uint8_t> beside = beside_known(grid, before);
-    for (std::size_t c = 0; c < grid.cells(); ++c) {
-      if (before[c] != 0 || beside[c] == 0) continue;
+    std::vector<std::size_t> outer;
+    for (const std::size_t c : rim)
+      for_neighbours(grid, c, [&](std::size_t d, int) {
+        if (side[d] != 0) return;
+        side[d] = reached;
+        outer.push_back(d);
+      });
+    const auto sides = parallel_values(outer.size(), 4096, [&](std::size_t i) -> std::int8_t {
       int sum = 0;
-      for_neighbours(grid, c, [&](std::size_t d, int weight) { sum += weight * before[d]; });
-      side[c] = static_cast<std::int8_t>(sum >= 0 ? 1 : -1);
-    }
+      for_neighbours(grid, outer[i], [&](std::size_t d, int weight) {
+        if (side[d] != reached) sum += weight * side[d];
+      });
+      return sum >= 0 ? 1 : -1;
+    });
+    for (std::size_t i = 0; i < outer.size(); ++i)
+      side[outer[i]] = sides[i];
+    rim = std::move(outer);
   }
   return side;
 }

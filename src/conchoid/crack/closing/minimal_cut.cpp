@@ -40,10 +40,10 @@ std::vector<int> faces_seen(const CellGrid& grid, const std::vector<bool>& crack
 }
 
 // Vertices of the graph: a cell of the band, or all cells beyond it that hang together there.
-CellSets vertices_of(const CellGrid& grid, const std::vector<bool>& band) {
+CellSets vertices_of(const CellGrid& grid, const std::vector<std::uint8_t>& band) {
   const std::vector<InsideCell>& inside = grid.inside_cells();
   return sets_of_cells(grid, [&](std::size_t i, int axis, std::size_t next) {
-    return !band[inside[i].cell] && !band[inside[next].cell] && grid.open(inside[i].cell, axis);
+    return !band[i] && !band[next] && inside[i].open(axis);
   });
 }
 
@@ -94,7 +94,8 @@ class NetworkBuilder {
 
 }  // namespace
 
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<bool>& band,
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
+                          const std::vector<std::uint8_t>& band,
                           const std::vector<std::int8_t>& known) {
   throw_if_interrupted();
   const CellSets vertices = vertices_of(grid, band);
@@ -107,13 +108,12 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, 
   const std::vector<InsideCell>& inside = grid.inside_cells();
   for (std::size_t i = 0; i < inside.size(); ++i) {
     const auto v = static_cast<std::size_t>(vertex[i]);
-    const std::size_t c = inside[i].cell;
     surplus[v] += seen[i];
-    if (!known.empty() && known[c] != 0) (known[c] > 0 ? up : down)[v] = 1;
+    if (!known.empty() && known[i] != 0) (known[i] > 0 ? up : down)[v] = 1;
     for (int axis = 0; axis < 3; ++axis) {
       if (inside[i].next[axis] < 0) continue;
       const std::int32_t next = vertex[static_cast<std::size_t>(inside[i].next[axis])];
-      if (next != vertex[i] && grid.open(c, axis)) builder.connect(vertex[i], next, kFaceCost, kFaceCost);
+      if (next != vertex[i] && inside[i].open(axis)) builder.connect(vertex[i], next, kFaceCost, kFaceCost);
     }
   }
   const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
@@ -144,9 +144,9 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, 
       boost::make_iterator_property_map(color.begin(), by_vertex),
       boost::make_iterator_property_map(distance.begin(), by_vertex), by_vertex, source, sink);
   CellPartition out;
-  out.side.assign(grid.cells(), 0);
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    out.side[inside[i].cell] = color[vertex[i]] == color[source] ? 1 : -1;
+  out.side.reserve(inside.size());
+  for (const std::int32_t v : vertex)
+    out.side.push_back(color[v] == color[source] ? 1 : -1);
   return out;
 }
 

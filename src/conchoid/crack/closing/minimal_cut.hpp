@@ -9,7 +9,7 @@ namespace conchoid {
 
 /// A body's cells in two.
 struct CellPartition {
-  std::vector<std::int8_t> side;  ///< per cell: 1 or −1; 0 outside of the body
+  std::vector<std::int8_t> side;  ///< per cell inside of the body: 1 or −1
 };
 
 /// The division of the body with the least new surface that keeps the two sides of a crack apart: a minimal
@@ -20,9 +20,9 @@ struct CellPartition {
 /// there stay together. Y. Boykov & V. Kolmogorov, An experimental comparison of min-cut/max-flow
 /// algorithms (2004).
 /// @param crack  per triangle of the grid's sheets: whether it belongs to the crack
-/// @param band   per cell
-/// @param known  per cell beyond the band its side, 1 or −1, where that is settled, else 0; empty: nowhere
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<bool>& band,
+/// @param band   per cell inside: whether it is in the band
+/// @param known  per cell inside, beyond the band: its side, 1 or −1, where that is settled, else 0; empty: nowhere
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<std::uint8_t>& band,
                           const std::vector<std::int8_t>& known = {});
 
 }  // namespace conchoid
