@@ -55,8 +55,7 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
   stream_.close();
-  if (!stream_ || !sync_to_disk(temporary_))
-    throw writing_failed(path_);
+  if (!stream_ || !sync_to_disk(temporary_)) throw writing_failed(path_);
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error)

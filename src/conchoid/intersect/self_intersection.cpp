@@ -6,6 +6,8 @@
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
+#include "conchoid/intersect/plane_cover.hpp"
+#include "conchoid/intersect/plane_signs.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 
@@ -44,47 +46,15 @@ int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return exact.sign();
 }
 
-/// Two coordinates of points in a common plane that keep that plane from collapsing.
-struct Projection {
-  int p, q;
-};
-
 Projection projection_of(const Triangle& t) {
   const Vec3 n = area_vector2(t[0], t[1], t[2]).cwiseAbs();
   const int drop = n.x() >= n.y() && n.x() >= n.z() ? 0 : n.y() >= n.z() ? 1 : 2;
   return {(drop + 1) % 3, (drop + 2) % 3};
 }
 
-/// Sign of the area of abc in the projection.
-int turn(const Vec3& a, const Vec3& b, const Vec3& c, Projection pr) {
-  const double left = (b[pr.p] - a[pr.p]) * (c[pr.q] - a[pr.q]);
-  const double right = (b[pr.q] - a[pr.q]) * (c[pr.p] - a[pr.p]);
-  const double determinant = left - right;
-  const double bound = (4 + 32 * unit_roundoff) * unit_roundoff * (std::abs(left) + std::abs(right));
-  if (determinant > bound) return 1;
-  if (-determinant > bound) return -1;
-  if (bound == 0) return 0;
-  auto difference = [&](const Vec3& x, int k) { return Expansion::difference(x[k], a[k]); };
-  return (difference(b, pr.p) * difference(c, pr.q) - difference(b, pr.q) * difference(c, pr.p)).sign();
-}
-
 bool in_triangle(const Vec3& x, const Triangle& t, Projection pr) {
   const int s0 = turn(t[0], t[1], x, pr), s1 = turn(t[1], t[2], x, pr), s2 = turn(t[2], t[0], x, pr);
   return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
-}
-
-/// x on the line ab: whether between them.
-bool between(const Vec3& x, const Vec3& a, const Vec3& b, Projection pr) {
-  auto within = [&](int k) { return std::min(a[k], b[k]) <= x[k] && x[k] <= std::max(a[k], b[k]); };
-  return within(pr.p) && within(pr.q);
-}
-
-bool coplanar_segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Projection pr) {
-  const int c_side = turn(a, b, c, pr), d_side = turn(a, b, d, pr);
-  const int a_side = turn(c, d, a, pr), b_side = turn(c, d, b, pr);
-  if (c_side * d_side < 0 && a_side * b_side < 0) return true;
-  return (c_side == 0 && between(c, a, b, pr)) || (d_side == 0 && between(d, a, b, pr)) ||
-         (a_side == 0 && between(a, c, d, pr)) || (b_side == 0 && between(b, c, d, pr));
 }
 
 /// On which sides of t's plane the points lie.
@@ -254,6 +224,7 @@ bool triangles_intersect(const IdVector<NodeId, Vec3>& positions, std::array<Nod
 }
 
 std::vector<std::pair<TriId, TriId>> self_intersections(const TriMesh& mesh, std::size_t limit) {
+  if (covers_plane_once(mesh)) return {};
   std::vector<TriId> all;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     all.emplace_back(t);

@@ -95,8 +95,7 @@ class NetworkBuilder {
 }  // namespace
 
 CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
-                          const std::vector<std::uint8_t>& band,
-                          const std::vector<std::int8_t>& known) {
+                          const std::vector<std::uint8_t>& band, const std::vector<std::int8_t>& known) {
   throw_if_interrupted();
   const CellSets vertices = vertices_of(grid, band);
   const std::vector<std::int32_t>& vertex = vertices.of_cell;
