@@ -25,7 +25,7 @@ STAGES = (
     ("search for ligaments", r"find_last_ligaments|find_same_ligament|minimal_cut|CellGrid|sets_of_cells|nearly_through"),
     ("sheets unfolded", r"unfolded|self_intersections|embedded_part"),
     ("slits opened", r"open_slits|open_all|open_fragments|slit"),
-    ("cracks cut to elements", r"update_crack|MouthCurve|merge_mouth"),
+    ("cracks cut to elements", r"update_crack"),
     ("cutting and gluing", r"cut_pieces|cut_piece|corefine|Corefinement|Gluer|remove_slivers|LigamentSurfaces|cut_ligament|cut_body|cut_into|retriang"),
     ("fronts", r"advance_fronts|FineFront|SweptSheets"),
     ("body: read, checked, remeshed", r"scene_body|body_from|read_ply|remesh|decimate|[Rr]emesher|EditableMesh|weld|ClosestPointTree"),

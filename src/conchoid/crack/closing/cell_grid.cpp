@@ -235,10 +235,12 @@ void CellGrid::list_inside_cells() {
     }
     const auto cell = static_cast<std::uint32_t>(at - first);
     const unsigned walls = wall_[cell];
+    if (!inside_cells_.empty() && inside_cells_.back().cell + 1 == cell)
+      inside_cells_.back().next[2] = static_cast<std::int32_t>(inside_cells_.size());
     inside_cells_.push_back(
         {cell, {-1, -1, -1}, static_cast<std::uint8_t>((walls / kSurface | walls / kSheet) & 7U)});
   }
-  parallel_for(3, 1, [&](std::size_t axis, std::size_t) {
+  parallel_for(2, 1, [&](std::size_t axis, std::size_t) {
     std::size_t ahead = 0;
     for (InsideCell& c : inside_cells_) {
       const std::size_t next = c.cell + step_[axis];

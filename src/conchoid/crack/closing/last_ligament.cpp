@@ -92,10 +92,14 @@ class Walls {
 // None where it parts off too little.
 std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
                                         Walls& walls) {
+  const auto smaller_side = [&] {
+    const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
+    return std::min(upper, static_cast<std::ptrdiff_t>(partition.side.size()) - upper);
+  };
+  if (smaller_side() == 0) return std::nullopt;  // nothing is worth breaking
   remove_specks(*grid, partition.side);
-  const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
-  const std::ptrdiff_t lower = static_cast<std::ptrdiff_t>(grid->inside_cells().size()) - upper;
-  if (std::min(upper, lower) < kFewestCells) return std::nullopt;
+  const std::ptrdiff_t smaller = smaller_side();
+  if (smaller < kFewestCells) return std::nullopt;
   LastLigament out;
   out.grid = std::move(grid);
   out.partition = std::move(partition);
@@ -104,7 +108,7 @@ std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, Ce
   for (const Vec3& x : out.faces)
     widest = std::max(widest, walls.tree().closest(x).squared_distance);
   out.half_width = std::sqrt(widest);
-  out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(std::min(upper, lower));
+  out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(smaller);
   return out;
 }
 
@@ -118,15 +122,16 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
   const std::vector<int> part = connected_parts(sheets);
   Walls walls(body, sheets);
   std::vector<LastLigament> found;
-  std::vector<bool> crack(sheets.triangle_count());
-  const int parts = *std::max_element(part.begin(), part.end()) + 1;
+  const std::size_t parts = static_cast<std::size_t>(*std::max_element(part.begin(), part.end())) + 1;
   const bool together = parts > 1 && of == LigamentsOf::each_and_all;
-  for (int p = 0; p < parts + (together ? 1 : 0); ++p) {
+  std::vector<CellPartition> cuts = parallel_values(parts + (together ? 1 : 0), 1, [&](std::size_t p) {
+    std::vector<bool> crack(sheets.triangle_count());
     for (std::size_t t = 0; t < crack.size(); ++t)
-      crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == p;
-    if (auto ligament = ligament_of(grid, minimal_cut(*grid, crack, band), walls))
-      found.push_back(*std::move(ligament));
-  }
+      crack[t] = p == parts || part[sheets.corners[TriId(t)][0].index()] == static_cast<int>(p);
+    return minimal_cut(*grid, crack, band);
+  });
+  for (CellPartition& cut : cuts)
+    if (auto ligament = ligament_of(grid, std::move(cut), walls)) found.push_back(*std::move(ligament));
   std::stable_sort(found.begin(), found.end(),
                    [](const LastLigament& x, const LastLigament& y) { return x.half_width < y.half_width; });
   return found;

@@ -22,7 +22,7 @@ struct CellPartition {
 /// @param crack  per triangle of the grid's sheets: whether it belongs to the crack
 /// @param band   per cell inside: whether it is in the band
 /// @param known  per cell inside, beyond the band: its side, 1 or −1, where that is settled, else 0; empty: nowhere
-CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack, const std::vector<std::uint8_t>& band,
-                          const std::vector<std::int8_t>& known = {});
+CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
+                          const std::vector<std::uint8_t>& band, const std::vector<std::int8_t>& known = {});
 
 }  // namespace conchoid
