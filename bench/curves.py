@@ -86,13 +86,16 @@ class Curves:
                 best = (len(timings), opening + rest, opening)
         return best
 
+    def solved_and_predicted(self, size):
+        """frames() of both."""
+        (self.folder / "scene.toml").write_text(SCENE.format(size=size) + CRACK)
+        return self.frames("bem"), self.frames("forest", "--database", "versatile")
+
     def row(self, size):
-        whole = SCENE.format(size=size)
-        (self.folder / "whole.toml").write_text(whole)
-        (self.folder / "scene.toml").write_text(whole + CRACK)
+        (self.folder / "whole.toml").write_text(SCENE.format(size=size))
         c = float(subprocess.run([self.calibration], capture_output=True, text=True, check=True).stdout.split()[0])
         setup, memory = min(self.run("stress", "whole.toml") for _ in range(self.rounds))
-        solved, predicted = self.frames("bem"), self.frames("forest", "--database", "versatile")
+        solved, predicted = self.solved_and_predicted(size)
         return {"triangles": size, "c": c, "setup": setup, "memory": memory, "solved": solved, "predicted": predicted}
 
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "conchoid/crack/closing/advance_fronts.hpp"
 #include "conchoid/crack/fine/fine_front.hpp"
@@ -74,8 +75,8 @@ TEST(FaceGrid, OwnTrianglesAndGrazedOnesAreNotInTheWay) {
   const FaceGrid grid = grid_of(mesh, 0.5);
   const Vec3 above(0.7, 0.2, 0.1), below(0.7, 0.2, -0.1), far(3.7, 0.2, -0.1);
   EXPECT_TRUE(grid.first_hit(mesh, above, below, {}));
-  EXPECT_FALSE(grid.first_hit(mesh, above, below, {NodeId(1)}));
-  EXPECT_TRUE(grid.first_hit(mesh, above, below, {NodeId(2)}));
+  EXPECT_FALSE(grid.first_hit(mesh, above, below, std::array{NodeId(1)}));
+  EXPECT_TRUE(grid.first_hit(mesh, above, below, std::array{NodeId(2)}));
   EXPECT_FALSE(grid.first_hit(mesh, Vec3(0, 0.2, 0.05), Vec3(1, 0.2, -0.05), {}));
   EXPECT_FALSE(grid.first_hit(mesh, above, far - Vec3(0, 0, 0.2), {}));
 }

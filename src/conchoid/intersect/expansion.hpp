@@ -3,9 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace conchoid {
+
+/// Largest relative error of a single operation.
+inline constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 /// Exact real number as a sum of doubles that do not overlap, in increasing magnitude, without zeros
 /// (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric predicates*, 1997).

@@ -9,7 +9,7 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/plane_signs.hpp"
 #include "conchoid/mesh/box_tree.hpp"
-#include "conchoid/mesh/sort_by_edge.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
 namespace {
@@ -41,55 +41,26 @@ bool seen_from_one_side(const TriMesh& sheet, const View& view) {
   return all;
 }
 
+// From a node of a boundary to the next.
 struct DirectedEdge {
   NodeId from, to;
 };
 
-// The edges of one triangle alone, as it goes round them; none where an edge has more than two, or two that do not go on each
-// on its side.
-std::optional<std::vector<DirectedEdge>> boundary_of(const TriMesh& sheet) {
+// None where a node is on them twice.
+std::optional<std::vector<DirectedEdge>> edges_of(const std::vector<BoundaryLoop>& loops,
+                                                  std::size_t node_count) {
+  IdVector<NodeId, char> seen(node_count, 0);
   std::vector<DirectedEdge> edges;
-  edges.reserve(3 * sheet.triangle_count());
-  for (const auto& c : sheet.corners)
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.push_back({c[k], c[(k + 1) % 3]});
-  sort_by_edge(edges, sheet.node_count(), [](const DirectedEdge& e) { return Edge(e.from, e.to); });
-  std::vector<DirectedEdge> boundary;
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t end = i + 1;
-    while (end < edges.size() && Edge(edges[end].from, edges[end].to) == Edge(edges[i].from, edges[i].to))
-      ++end;
-    if (end - i == 1)
-      boundary.push_back(edges[i]);
-    else if (end - i > 2 || edges[i].from == edges[i + 1].from)
-      return std::nullopt;
-    i = end;
-  }
-  return boundary;
-}
-
-// Closed curves of nodes; none where they meet in a node.
-std::optional<std::vector<std::vector<NodeId>>> loops_of(const std::vector<DirectedEdge>& boundary,
-                                                         std::size_t node_count) {
-  IdVector<NodeId, NodeId> next(node_count, NodeId());
-  for (const DirectedEdge& e : boundary) {
-    if (next[e.from].valid()) return std::nullopt;
-    next[e.from] = e.to;
-  }
-  std::vector<std::vector<NodeId>> loops;
-  for (const DirectedEdge& e : boundary) {
-    std::vector<NodeId> loop;
-    for (NodeId n = e.from; next[n].valid();) {
-      loop.push_back(n);
-      n = std::exchange(next[n], NodeId());
+  for (const BoundaryLoop& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      if (std::exchange(seen[loop[i]], 1) != 0) return std::nullopt;
+      edges.push_back({loop[i], loop[(i + 1) % loop.size()]});
     }
-    if (!loop.empty()) loops.push_back(std::move(loop));
-  }
-  return loops;
+  return edges;
 }
 
 // Of a closed curve without crossings: the sign of the turn at its outermost node.
-int way_round(const TriMesh& sheet, const std::vector<NodeId>& loop, Projection pr) {
+int way_round(const TriMesh& sheet, const BoundaryLoop& loop, Projection pr) {
   const auto x = [&](std::size_t i) -> const Vec3& { return sheet.positions[loop[i % loop.size()]]; };
   std::size_t first = 0;
   for (std::size_t i = 1; i < loop.size(); ++i)
@@ -136,11 +107,10 @@ bool covers_plane_once(const TriMesh& sheet) {
   if (sheet.corners.empty()) return false;
   const View view = best_view(sheet);
   if (!seen_from_one_side(sheet, view)) return false;
-  const auto boundary = boundary_of(sheet);
-  if (!boundary) return false;
-  const auto loops = loops_of(*boundary, sheet.node_count());
-  if (!loops || boundaries_meet(sheet, *boundary, view.projection)) return false;
-  return std::count_if(loops->begin(), loops->end(), [&](const std::vector<NodeId>& loop) {
+  const std::vector<BoundaryLoop> loops = boundary_loops(sheet);
+  const auto boundary = edges_of(loops, sheet.node_count());
+  if (!boundary || boundaries_meet(sheet, *boundary, view.projection)) return false;
+  return std::count_if(loops.begin(), loops.end(), [&](const BoundaryLoop& loop) {
            return way_round(sheet, loop, view.projection) == view.side;
          }) == 1;
 }

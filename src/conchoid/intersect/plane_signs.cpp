@@ -2,17 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "conchoid/intersect/expansion.hpp"
 
 namespace conchoid {
-namespace {
-
-constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
-
-}  // namespace
-
 int turn(const Vec3& a, const Vec3& b, const Vec3& c, Projection pr) {
   const double left = (b[pr.p] - a[pr.p]) * (c[pr.q] - a[pr.q]);
   const double right = (b[pr.q] - a[pr.q]) * (c[pr.p] - a[pr.p]);

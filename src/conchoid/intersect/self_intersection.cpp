@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/intersect/expansion.hpp"
@@ -13,8 +12,6 @@
 
 namespace conchoid {
 namespace {
-
-constexpr double unit_roundoff = 0.5 * std::numeric_limits<double>::epsilon();
 
 /// Sign of ((b−a) × (c−a))·(d−a): + if d lies on the side of abc from which it is seen counter-clockwise.
 /// Floating point with Shewchuk's error bound, exact expansions where that leaves the sign open.

@@ -500,8 +500,7 @@ const std::vector<Setting>& settings() {
        world_class_names()},
       {"world", "scans", texts, "", "",
        "mesh files that bodies of the class scan are made from: drawn out and decimated; paths are relative "
-       "to the "
-       "specification"},
+       "to the specification"},
       {"world", "runs_per_body", integer, "runs", "4", "loads on each body, one run each",
        between(1, 100000)},
       {"world", "elements", integer, "triangles", "240", "BEM triangles wanted per body", between(60, 20000)},

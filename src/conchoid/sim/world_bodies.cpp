@@ -175,6 +175,17 @@ constexpr std::array<BodyClass, 9> classes = {{{"box", random_box},
                                                {"blob", random_blob},
                                                {"polyhedron", random_polyhedron}}};
 
+// As many triangles as wanted, or as a shape of limbs and folds needs: what it allows grows with what it is asked for.
+TriMesh decimated(const TriMesh& mesh, int wanted) {
+  for (int attempt = 0;; ++attempt)
+    try {
+      return remesh(mesh, wanted);
+    } catch (const TriangleCountError& error) {
+      if (attempt == kScanAttempts) throw;
+      wanted = std::max(static_cast<int>(error.allowed()), static_cast<int>(kScanRise * wanted));
+    }
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& body_class_names() {
@@ -202,21 +213,6 @@ RandomBody random_body(std::string_view body_class, int elements, Random& random
   throw InputError(fmt::format("there is no class of bodies \"{}\"; choose from {}", body_class,
                                fmt::join(body_class_names(), ", ")));
 }
-
-namespace {
-
-// As many triangles as wanted, or as a shape of limbs and folds needs: what it allows grows with what it is asked for.
-TriMesh decimated(const TriMesh& mesh, int wanted) {
-  for (int attempt = 0;; ++attempt)
-    try {
-      return remesh(mesh, wanted);
-    } catch (const TriangleCountError& error) {
-      if (attempt == kScanAttempts) throw;
-      wanted = std::max(static_cast<int>(error.allowed()), static_cast<int>(kScanRise * wanted));
-    }
-}
-
-}  // namespace
 
 TriMesh scan_of(TriMesh body, int elements) {
   const Box box = bounding_box(body);

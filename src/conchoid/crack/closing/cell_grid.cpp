@@ -240,6 +240,7 @@ void CellGrid::list_inside_cells() {
     inside_cells_.push_back(
         {cell, {-1, -1, -1}, static_cast<std::uint8_t>((walls / kSurface | walls / kSheet) & 7U)});
   }
+  // Along the third axis the next one is the next in the list; along the others:
   parallel_for(2, 1, [&](std::size_t axis, std::size_t) {
     std::size_t ahead = 0;
     for (InsideCell& c : inside_cells_) {

@@ -51,7 +51,7 @@ void FaceGrid::join(int part, int with) {
 }
 
 std::optional<FaceGrid::Hit> FaceGrid::first_hit(const TriMesh& mesh, const Vec3& from, const Vec3& to,
-                                                 const std::vector<NodeId>& own) const {
+                                                 std::span<const NodeId> own) const {
   std::optional<Hit> best;
   for_each_cell(cell_of(from.cwiseMin(to), cell_), cell_of(from.cwiseMax(to), cell_), [&](const Cell& cell) {
     const auto found = blocks_.find(block_of(cell));

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -32,7 +33,7 @@ class FaceGrid {
   /// First triangle that the path from → to passes through at more than kGrazingSine to its plane and that has
   /// none of the nodes of `own`, sorted. Of triangles met at the same place the one with the lowest id.
   std::optional<Hit> first_hit(const TriMesh& mesh, const Vec3& from, const Vec3& to,
-                               const std::vector<NodeId>& own) const;
+                               std::span<const NodeId> own) const;
 
  private:
   static constexpr int kBlockBits = 3;

@@ -1,6 +1,7 @@
 #include "conchoid/crack/fine/fine_front.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -219,11 +220,10 @@ void FineFront::stop_at_faces(MarkerCurve& curve, const std::vector<Vec3>& from,
     const Vec3 way = marker.position - from[i];
     const auto edge = static_cast<std::size_t>(std::max(0.0, marker.parameter));
     if (marker.arrested || way.isZero(0) || (edge < inside.size() && !inside[edge])) return;
-    std::vector<NodeId> own;
-    own.reserve(2 * (kOwnMarkers + 1));
+    std::array<NodeId, 2 * (kOwnMarkers + 1)> own;
     for (std::size_t k = 0, a = i, b = i; k <= kOwnMarkers; ++k) {
-      own.push_back(curve.markers[a].node);
-      own.push_back(curve.markers[b].node);
+      own[2 * k] = curve.markers[a].node;
+      own[2 * k + 1] = curve.markers[b].node;
       a = curve.previous(a);
       b = curve.next(b);
     }
