@@ -3,9 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "conchoid/core/parallel.hpp"
@@ -90,17 +89,48 @@ CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
   }
   origin_ = size_ * (axes_ * low);
   step_ = {static_cast<std::size_t>(count_[1]) * count_[2], static_cast<std::size_t>(count_[2]), 1};
-  inside_.assign(step_[0] * count_[0], 0);
-  wall_.assign(inside_.size(), 0);
-  stand_walls(body, sheets);
-  list_inside_cells();
+  const std::vector<Vec3> of_body = places(body), of_sheets = places(sheets);
+  std::array<std::vector<std::size_t>, 3> surface;  // cells before it, along each axis
+  std::array<std::vector<SheetCrossing>, 3> cracks;
+  parallel_for(6, 1, [&](std::size_t task, std::size_t) {
+    const int axis = static_cast<int>(task % 3);
+    if (task < 3)
+      cross(body, of_body, axis, [&](std::size_t c, double, TriId, bool) { surface[axis].push_back(c); });
+    else
+      cross(sheets, of_sheets, axis, [&](std::size_t c, double depth, TriId t, bool upwards) {
+        cracks[axis].push_back({c, axis, depth, t, upwards});
+      });
+  });
+  list_runs(surface[2]);
+  // A wall that is the body's surface stands between two cells inside where something thinner than a cell is left out.
+  std::array<std::vector<std::int32_t>, 3> walled;
+  parallel_for(3, 1, [&](std::size_t axis, std::size_t) {
+    const auto stand = [&](std::size_t c) {
+      if (number(c + step_[axis]) < 0) return;
+      if (const std::int32_t n = number(c); n >= 0) walled[axis].push_back(n);
+    };
+    for (const std::size_t c : surface[axis])
+      stand(c);
+    for (const SheetCrossing& x : cracks[axis])
+      stand(x.cell);
+  });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const std::int32_t n : walled[axis])
+      walls_[static_cast<std::size_t>(n)] |= static_cast<std::uint8_t>(1U << axis);
+    crossings_.insert(crossings_.end(), cracks[axis].begin(), cracks[axis].end());
+  }
+  std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
+    return std::tie(x.cell, x.axis, x.depth, x.triangle) < std::tie(y.cell, y.axis, y.depth, y.triangle);
+  });
+  list_pairs();
 }
 
 std::int32_t CellGrid::number(std::size_t cell) const {
-  if (!inside(cell)) return -1;
-  const auto at = std::lower_bound(inside_cells_.begin(), inside_cells_.end(), cell,
-                                   [](const InsideCell& x, std::size_t c) { return x.cell < c; });
-  return static_cast<std::int32_t>(at - inside_cells_.begin());
+  const std::size_t line = cell / step_[1];
+  for (std::size_t r = first_run_[line]; r < first_run_[line + 1]; ++r)
+    if (const std::size_t beyond = cell - runs_[r].cell; beyond < static_cast<std::size_t>(runs_[r].count))
+      return runs_[r].number + static_cast<std::int32_t>(beyond);
+  return -1;
 }
 
 std::array<int, 3> CellGrid::place(std::size_t cell) const {
@@ -192,63 +222,54 @@ void CellGrid::cross(const TriMesh& mesh, const std::vector<Vec3>& local, int ax
   }
 }
 
-// What is inside: from the bottom of each line of cells along the first axis, in and out at every crossing.
-void CellGrid::stand_walls(const TriMesh& body, const TriMesh& sheets) {
-  const std::vector<Vec3> of_body = places(body), of_sheets = places(sheets);
-  std::array<std::vector<std::size_t>, 3> surface;  // cells before it, along each axis
-  std::array<std::vector<SheetCrossing>, 3> cracks;
-  parallel_for(6, 1, [&](std::size_t task, std::size_t) {
-    const int axis = static_cast<int>(task % 3);
-    if (task < 3)
-      cross(body, of_body, axis, [&](std::size_t c, double, TriId, bool) { surface[axis].push_back(c); });
-    else
-      cross(sheets, of_sheets, axis, [&](std::size_t c, double depth, TriId t, bool upwards) {
-        cracks[axis].push_back({c, axis, depth, t, upwards});
-      });
-  });
-  std::vector<std::uint8_t> odd(inside_.size(), 0);
-  for (const std::size_t c : surface[0])
-    odd[c] ^= 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const std::size_t c : surface[axis])
-      wall_[c] |= static_cast<std::uint8_t>(kSurface << axis);
-    for (const SheetCrossing& x : cracks[axis])
-      wall_[x.cell] |= static_cast<std::uint8_t>(kSheet << axis);
-    crossings_.insert(crossings_.end(), cracks[axis].begin(), cracks[axis].end());
+// What is inside: from the bottom of each line of cells, in and out at every crossing.
+void CellGrid::list_runs(const std::vector<std::size_t>& surface) {
+  const std::size_t lines = cells() / step_[1];
+  std::vector<std::uint32_t> first(lines + 1, 0);  // crossing of each line
+  for (const std::size_t c : surface)
+    ++first[c / step_[1] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> sorted(surface.size());
+  std::vector<std::uint32_t> at(first.begin(), first.end() - 1);
+  for (const std::size_t c : surface)
+    sorted[at[c / step_[1]]++] = c;
+  first_run_.assign(lines + 1, 0);
+  std::int32_t number = 0;
+  for (std::size_t line = 0; line < lines; ++line) {
+    const auto begin = sorted.begin() + first[line], end = sorted.begin() + first[line + 1];
+    std::sort(begin, end);
+    for (auto c = begin; c + 1 < end; c += 2) {
+      const auto count = static_cast<std::int32_t>(c[1] - c[0]);
+      if (count == 0) continue;
+      if (runs_.size() > first_run_[line] &&
+          runs_.back().cell + static_cast<std::size_t>(runs_.back().count) == c[0] + 1)
+        runs_.back().count += count;
+      else
+        runs_.push_back({c[0] + 1, number, count});
+      number += count;
+    }
+    first_run_[line + 1] = static_cast<std::uint32_t>(runs_.size());
   }
-  std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
-    return std::tie(x.cell, x.axis, x.depth, x.triangle) < std::tie(y.cell, y.axis, y.depth, y.triangle);
-  });
-  for (std::size_t plane = 0; plane + step_[0] < inside_.size(); plane += step_[0])
-    std::transform(inside_.begin() + plane, inside_.begin() + plane + step_[0], odd.begin() + plane,
-                   inside_.begin() + plane + step_[0], std::bit_xor<>());
+  walls_.assign(static_cast<std::size_t>(number), 0);
 }
 
-void CellGrid::list_inside_cells() {
-  const std::uint8_t* const first = inside_.data();
-  const std::uint8_t* const end = first + inside_.size();
-  inside_cells_.reserve(static_cast<std::size_t>(std::count(first, end, 1)));
-  for (const std::uint8_t* at = first; at != end; ++at) {
-    if (*at == 0) {
-      at = static_cast<const std::uint8_t*>(std::memchr(at, 1, static_cast<std::size_t>(end - at)));
-      if (at == nullptr) break;
-    }
-    const auto cell = static_cast<std::uint32_t>(at - first);
-    const unsigned walls = wall_[cell];
-    if (!inside_cells_.empty() && inside_cells_.back().cell + 1 == cell)
-      inside_cells_.back().next[2] = static_cast<std::int32_t>(inside_cells_.size());
-    inside_cells_.push_back(
-        {cell, {-1, -1, -1}, static_cast<std::uint8_t>((walls / kSurface | walls / kSheet) & 7U)});
-  }
-  // Along the third axis the next one is the next in the list; along the others:
+void CellGrid::list_pairs() {
+  for (const CellRun& run : runs_)
+    if (run.count > 1) pairs_[2].push_back({{run.cell, run.number, run.count - 1}, run.number + 1});
   parallel_for(2, 1, [&](std::size_t axis, std::size_t) {
-    std::size_t ahead = 0;
-    for (InsideCell& c : inside_cells_) {
-      const std::size_t next = c.cell + step_[axis];
-      while (ahead < inside_cells_.size() && inside_cells_[ahead].cell < next)
-        ++ahead;
-      if (ahead < inside_cells_.size() && inside_cells_[ahead].cell == next)
-        c.next[axis] = static_cast<std::int32_t>(ahead);
+    std::size_t next = 0;  // run that ends behind the beginning of what lies ahead
+    for (const CellRun& run : runs_) {
+      const std::size_t low = run.cell + step_[axis], high = low + static_cast<std::size_t>(run.count);
+      while (next < runs_.size() && runs_[next].cell + static_cast<std::size_t>(runs_[next].count) <= low)
+        ++next;
+      for (std::size_t r = next; r < runs_.size() && runs_[r].cell < high; ++r) {
+        const CellRun& ahead = runs_[r];
+        const std::size_t from = std::max(low, ahead.cell);
+        const std::size_t to = std::min(high, ahead.cell + static_cast<std::size_t>(ahead.count));
+        pairs_[axis].push_back({{from - step_[axis], run.number + static_cast<std::int32_t>(from - low),
+                                 static_cast<std::int32_t>(to - from)},
+                                ahead.number + static_cast<std::int32_t>(from - ahead.cell)});
+      }
     }
   });
 }

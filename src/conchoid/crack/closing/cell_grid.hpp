@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -17,15 +18,17 @@ struct SheetCrossing {
   bool upwards = false;  ///< the upper cell lies on the side to which the triangle's normal points
 };
 
-/// A cell inside of a body, and its neighbours.
-struct InsideCell {
-  std::uint32_t cell = 0;
-  /// Along each axis, as a place among the cells inside; −1 outside.
-  std::array<std::int32_t, 3> next{-1, -1, -1};
-  /// Axes along which something stands between this cell and the next one: bit 0, 1, 2.
-  std::uint8_t walls = 0;
+/// Cells inside of a body that follow each other along the third axis, and their numbers: cell, cell + 1, … are
+/// number, number + 1, …
+struct CellRun {
+  std::size_t cell = 0;
+  std::int32_t number = 0, count = 0;
+  std::int32_t end() const { return number + count; }
+};
 
-  bool open(int axis) const { return (walls & 1U << axis) == 0; }
+/// The same with what lies ahead of each along an axis: numbers ahead, ahead + 1, …
+struct CellPairs : CellRun {
+  std::int32_t ahead = 0;
 };
 
 /// The inside of a body as cubic cells, with the crack sheets as walls between neighbours. Two cells belong to
@@ -41,7 +44,7 @@ class CellGrid {
 
   double size() const { return size_; }
   const std::array<int, 3>& count() const { return count_; }
-  std::size_t cells() const { return inside_.size(); }
+  std::size_t cells() const { return step_[0] * static_cast<std::size_t>(count_[0]); }
   std::size_t cell(int i, int j, int k) const {
     return (static_cast<std::size_t>(i) * count_[1] + j) * count_[2] + k;
   }
@@ -56,45 +59,52 @@ class CellGrid {
   /// The cells whose centres lie within `reach` cells of a place counted in cells.
   void mark_near(const Vec3& place, double reach, std::vector<bool>& near) const;
 
-  bool inside(std::size_t cell) const { return inside_[cell] != 0; }
-  /// The cells inside of the body, by their ids: mostly few of those of its box.
-  const std::vector<InsideCell>& inside_cells() const { return inside_cells_; }
-  /// The place of a cell among these; −1 outside of the body.
+  bool inside(std::size_t cell) const { return number(cell) >= 0; }
+  /// How many cells are inside of the body: mostly few of those of its box. They are numbered in the order of their ids.
+  std::size_t inside_count() const { return walls_.size(); }
+  /// −1 outside of the body.
   std::int32_t number(std::size_t cell) const;
+  /// All cells inside, in order.
+  const std::vector<CellRun>& runs() const { return runs_; }
+  /// All neighbours along an axis that are both inside, in order.
+  const std::vector<CellPairs>& pairs(int axis) const { return pairs_[static_cast<std::size_t>(axis)]; }
+  /// Whether nothing stands between a cell inside, by its number, and the one ahead along an axis.
+  bool open(std::size_t number, int axis) const { return (walls_[number] & 1U << axis) == 0; }
 
   /// Numbers of the cells inside as numbers of all cells, 0 outside.
   template <class Number>
   std::vector<Number> by_cell(const std::vector<Number>& of_inside) const {
     std::vector<Number> all(cells(), 0);
-    for (std::size_t i = 0; i < of_inside.size(); ++i)
-      all[inside_cells_[i].cell] = of_inside[i];
+    for (const CellRun& run : runs_)
+      std::copy_n(of_inside.begin() + run.number, run.count,
+                  all.begin() + static_cast<std::ptrdiff_t>(run.cell));
     return all;
   }
 
-  /// Whether a crack, not the body's surface alone, stands between the two.
-  bool cracked(std::size_t cell, int axis) const { return (wall_[cell] & kSheet << axis) != 0; }
   /// By cell, axis, then depth.
   const std::vector<SheetCrossing>& crossings() const { return crossings_; }
 
  private:
-  static constexpr unsigned kSurface = 1, kSheet = 8;  // shifted by the axis
-
   /// Positions of a mesh's nodes counted in cells.
   std::vector<Vec3> places(const TriMesh& mesh) const;
   /// Calls found(cell, depth, triangle, upwards) wherever lines of cells along `axis` cross the mesh; cells
   /// outside of the grid are left out, their lines are not.
   template <class Found>
   void cross(const TriMesh& mesh, const std::vector<Vec3>& places, int axis, const Found& found) const;
-  void stand_walls(const TriMesh& body, const TriMesh& sheets);
-  void list_inside_cells();
+  /// @param surface  cells before the body's surface along the third axis
+  void list_runs(const std::vector<std::size_t>& surface);
+  void list_pairs();
 
   double size_;
   Mat3 axes_;  // columns; perhaps left-handed
   Vec3 origin_;
   std::array<int, 3> count_{};
   std::array<std::size_t, 3> step_{};
-  std::vector<std::uint8_t> inside_, wall_;
-  std::vector<InsideCell> inside_cells_;
+  std::vector<CellRun> runs_;
+  std::vector<std::uint32_t> first_run_;  // of each line of cells along the third axis, and one more
+  std::array<std::vector<CellPairs>, 3> pairs_;
+  std::vector<std::uint8_t>
+      walls_;  // by number: bit 0, 1, 2 for something between it and the next one along an axis
   std::vector<SheetCrossing> crossings_;
 };
 

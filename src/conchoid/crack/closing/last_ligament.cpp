@@ -42,9 +42,11 @@ std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh&
     grid.mark_near(x, reach, band);
   }
   std::vector<std::uint8_t> of_inside;
-  of_inside.reserve(grid.inside_cells().size());
-  for (const InsideCell& c : grid.inside_cells())
-    of_inside.push_back(band[c.cell]);
+  of_inside.reserve(grid.inside_count());
+  for (const CellRun& run : grid.runs()) {
+    const auto first = band.begin() + static_cast<std::ptrdiff_t>(run.cell);
+    of_inside.insert(of_inside.end(), first, first + run.count);
+  }
   return of_inside;
 }
 
@@ -62,15 +64,21 @@ void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
 }
 
 std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
+  std::vector<std::array<std::size_t, 2>> cells;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const CellPairs& pairs : grid.pairs(axis))
+      for (std::int32_t k = 0; k < pairs.count; ++k) {
+        const auto i = static_cast<std::size_t>(pairs.number + k),
+                   n = static_cast<std::size_t>(pairs.ahead + k);
+        if (partition.side[i] == partition.side[n] || !grid.open(i, axis)) continue;
+        const std::size_t cell = pairs.cell + static_cast<std::size_t>(k);
+        cells.push_back({cell, grid.next(cell, axis)});
+      }
+  std::sort(cells.begin(), cells.end());
   std::vector<Vec3> faces;
-  const std::vector<InsideCell>& inside = grid.inside_cells();
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      if (inside[i].next[axis] < 0) continue;
-      const auto n = static_cast<std::size_t>(inside[i].next[axis]);
-      if (partition.side[i] != partition.side[n] && inside[i].open(axis))
-        faces.push_back(0.5 * (grid.center(inside[i].cell) + grid.center(inside[n].cell)));
-    }
+  faces.reserve(cells.size());
+  for (const auto& [cell, next] : cells)
+    faces.push_back(0.5 * (grid.center(cell) + grid.center(next)));
   return faces;
 }
 
@@ -143,11 +151,18 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
   const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, target_edge);
   const std::vector<std::int8_t> sides = elsewhere.grid->by_cell(elsewhere.partition.side);
-  const std::vector<InsideCell>& inside = grid->inside_cells();
-  const auto known = parallel_values(inside.size(), 4096, [&](std::size_t i) -> std::int8_t {
-    if (band[i]) return 0;
-    const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(grid->center(inside[i].cell)));
-    return there ? sides[*there] : 0;
+  std::vector<std::int8_t> known(grid->inside_count(), 0);
+  parallel_for(grid->runs().size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      const CellRun& run = grid->runs()[r];
+      for (std::int32_t k = 0; k < run.count; ++k) {
+        const auto i = static_cast<std::size_t>(run.number + k);
+        if (band[i]) continue;
+        const Vec3 x = grid->center(run.cell + static_cast<std::size_t>(k));
+        if (const auto there = cell_at(*elsewhere.grid, elsewhere.grid->place_of(x)))
+          known[i] = sides[*there];
+      }
+    }
   });
   const std::vector<bool> all(sheets.triangle_count(), true);
   Walls walls(body, sheets);

@@ -55,17 +55,18 @@ void for_neighbours(const CellGrid& grid, std::size_t cell, const Visit& visit) 
 
 // Cells inside of the body with a neighbour along an axis that is not.
 std::vector<std::size_t> rim_of(const CellGrid& grid) {
-  const std::vector<InsideCell>& inside = grid.inside_cells();
-  std::vector<std::uint8_t> neighbours(inside.size(), 0);
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    for (const std::int32_t next : inside[i].next)
-      if (next >= 0) {
-        ++neighbours[i];
-        ++neighbours[static_cast<std::size_t>(next)];
+  std::vector<std::uint8_t> neighbours(grid.inside_count(), 0);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const CellPairs& pairs : grid.pairs(axis))
+      for (std::int32_t k = 0; k < pairs.count; ++k) {
+        ++neighbours[static_cast<std::size_t>(pairs.number + k)];
+        ++neighbours[static_cast<std::size_t>(pairs.ahead + k)];
       }
   std::vector<std::size_t> rim;
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    if (neighbours[i] < 6) rim.push_back(inside[i].cell);
+  for (const CellRun& run : grid.runs())
+    for (std::int32_t k = 0; k < run.count; ++k)
+      if (neighbours[static_cast<std::size_t>(run.number + k)] < 6)
+        rim.push_back(run.cell + static_cast<std::size_t>(k));
   return rim;
 }
 

@@ -3,6 +3,7 @@
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "conchoid/core/interrupt.hpp"
@@ -19,32 +20,48 @@ using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_pro
                                                  boost::no_property, std::int32_t, std::int32_t>;
 using Arc = boost::graph_traits<Graph>::edge_descriptor;
 
-// Surplus of faces of the crack that look at each cell inside from its upper over those from its lower side.
-std::vector<int> faces_seen(const CellGrid& grid, const std::vector<bool>& crack) {
-  std::vector<int> seen(grid.inside_cells().size(), 0);
-  const auto see = [&](std::size_t cell, int faces) {
-    if (const std::int32_t i = grid.number(cell); i >= 0) seen[static_cast<std::size_t>(i)] += faces;
-  };
+// Calls see(number, faces) for cells inside: surplus of faces of the crack that look at it from its upper over those from its
+// lower side.
+template <class See>
+void for_faces_seen(const CellGrid& grid, const std::vector<bool>& crack, const See& see) {
   const auto& crossings = grid.crossings();
   const auto same_edge = [](const SheetCrossing& x, const SheetCrossing& y) {
     return x.cell == y.cell && x.axis == y.axis;
   };
+  const auto see_inside = [&](std::size_t cell, int faces) {
+    if (const std::int32_t i = grid.number(cell); i >= 0) see(static_cast<std::size_t>(i), faces);
+  };
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const SheetCrossing& x = crossings[i];
     if (!crack[x.triangle.index()]) continue;
-    if (i == 0 || !same_edge(crossings[i - 1], x)) see(x.cell, x.upwards ? -1 : 1);
+    if (i == 0 || !same_edge(crossings[i - 1], x)) see_inside(x.cell, x.upwards ? -1 : 1);
     if (i + 1 == crossings.size() || !same_edge(crossings[i + 1], x))
-      see(grid.next(x.cell, x.axis), x.upwards ? 1 : -1);
+      see_inside(grid.next(x.cell, x.axis), x.upwards ? 1 : -1);
   }
-  return seen;
 }
 
 // Vertices of the graph: a cell of the band, or all cells beyond it that hang together there.
 CellSets vertices_of(const CellGrid& grid, const std::vector<std::uint8_t>& band) {
-  const std::vector<InsideCell>& inside = grid.inside_cells();
   return sets_of_cells(grid, [&](std::size_t i, int axis, std::size_t next) {
-    return !band[i] && !band[next] && inside[i].open(axis);
+    return !band[i] && !band[next] && grid.open(i, axis);
   });
+}
+
+// Calls connect(number, number) for neighbours of which one at least is in the band, and that nothing parts.
+template <class Connect>
+void for_faces_in_band(const CellGrid& grid, const std::vector<std::uint8_t>& band, const Connect& connect) {
+  const auto any = [&](std::int32_t first, std::int32_t count) {
+    return std::memchr(band.data() + first, 1, static_cast<std::size_t>(count)) != nullptr;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const CellPairs& pairs : grid.pairs(axis)) {
+      if (!any(pairs.number, pairs.count) && !any(pairs.ahead, pairs.count)) continue;
+      for (std::int32_t k = 0; k < pairs.count; ++k) {
+        const auto i = static_cast<std::size_t>(pairs.number + k),
+                   n = static_cast<std::size_t>(pairs.ahead + k);
+        if ((band[i] || band[n]) && grid.open(i, axis)) connect(i, n);
+      }
+    }
 }
 
 // Arcs out of each vertex, one after the other; each with its capacity and its opposite.
@@ -103,18 +120,14 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
   NetworkBuilder builder(static_cast<std::size_t>(count) + 2);
   std::vector<int> surplus(static_cast<std::size_t>(count), 0);
   std::vector<char> up(static_cast<std::size_t>(count), 0), down(up);  // that cells are known to lie there
-  const std::vector<int> seen = faces_seen(grid, crack);
-  const std::vector<InsideCell>& inside = grid.inside_cells();
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const auto v = static_cast<std::size_t>(vertex[i]);
-    surplus[v] += seen[i];
-    if (!known.empty() && known[i] != 0) (known[i] > 0 ? up : down)[v] = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (inside[i].next[axis] < 0) continue;
-      const std::int32_t next = vertex[static_cast<std::size_t>(inside[i].next[axis])];
-      if (next != vertex[i] && inside[i].open(axis)) builder.connect(vertex[i], next, kFaceCost, kFaceCost);
-    }
-  }
+  for_faces_seen(grid, crack, [&](std::size_t cell, int faces) {
+    surplus[static_cast<std::size_t>(vertex[cell])] += faces;
+  });
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (known[i] != 0) (known[i] > 0 ? up : down)[static_cast<std::size_t>(vertex[i])] = 1;
+  for_faces_in_band(grid, band, [&](std::size_t cell, std::size_t next) {
+    builder.connect(vertex[cell], vertex[next], kFaceCost, kFaceCost);
+  });
   const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
   for (std::int32_t v = 0; v < count; ++v) {
     const int faces = surplus[static_cast<std::size_t>(v)];
@@ -143,7 +156,7 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
       boost::make_iterator_property_map(color.begin(), by_vertex),
       boost::make_iterator_property_map(distance.begin(), by_vertex), by_vertex, source, sink);
   CellPartition out;
-  out.side.reserve(inside.size());
+  out.side.reserve(vertex.size());
   for (const std::int32_t v : vertex)
     out.side.push_back(color[v] == color[source] ? 1 : -1);
   return out;
