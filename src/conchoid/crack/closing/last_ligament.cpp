@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/closing/cell_sets.hpp"
 #include "conchoid/crack/length_factors.hpp"
+#include "conchoid/mesh/box.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
 #include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
 namespace {
+
+constexpr std::size_t kEndsForABound = 500;
 
 double cell_size(const TriMesh& body, double target_edge) {
   const Box box = bounding_box(body);
@@ -31,10 +35,11 @@ std::optional<std::size_t> cell_at(const CellGrid& grid, const Vec3& place) {
 }
 
 // Per cell inside whether it is within kLigamentBand of the cracks' ends inside of the body.
-std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets, double target_edge) {
+std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets,
+                                            const std::vector<Edge>& ends, double target_edge) {
   std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
   const double reach = kLigamentBand * target_edge / grid.size();
-  for (const Edge& e : boundary_edges(sheets)) {
+  for (const Edge& e : ends) {
     const Vec3 x = grid.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
     const auto here = cell_at(grid, x);
     if (!here || !grid.inside(*here) || done[*here]) continue;
@@ -82,24 +87,49 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
   return faces;
 }
 
-// The body's surface and the cracks, once something asks for it.
-class Walls {
- public:
-  Walls(const TriMesh& body, const TriMesh& sheets) : body_(body), sheets_(sheets) {}
-  const ClosestPointTree& tree() {
-    if (!tree_) tree_.emplace(join({body_, sheets_}));
-    return *tree_;
-  }
+// Triangles of the body's surface and the cracks that reach into a box.
+TriMesh walls_within(const Box& box, const TriMesh& body, const TriMesh& sheets) {
+  TriMesh walls;
+  for (const TriMesh* mesh : {&body, &sheets})
+    for (std::size_t t = 0; t < mesh->triangle_count(); ++t) {
+      const Triangle x = mesh->triangle(TriId(t));
+      if (!overlap(box_of(x), box)) continue;
+      const NodeId a = walls.positions.add(x[0]), b = walls.positions.add(x[1]),
+                   c = walls.positions.add(x[2]);
+      walls.corners.push_back({a, b, c});
+    }
+  return walls;
+}
 
- private:
-  const TriMesh& body_;
-  const TriMesh& sheets_;
-  std::optional<ClosestPointTree> tree_;
-};
+// Largest distance of the broken faces from the walls: few faces, while the walls are many.
+double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const TriMesh& sheets,
+                  const std::vector<Edge>& ends) {
+  if (faces.empty() || ends.empty()) return 0;
+  // It is no more than that from some of the cracks' ends.
+  const std::size_t stride = ends.size() / kEndsForABound + 1;
+  Box box{faces[0], faces[0]};
+  double squared_bound = 0;
+  for (const Vec3& x : faces) {
+    box = united(box, {x, x});
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < ends.size(); i += stride)
+      nearest = std::min(nearest, (sheets.positions[ends[i].a] - x).squaredNorm());
+    squared_bound = std::max(squared_bound, nearest);
+  }
+  const double reach = std::sqrt(squared_bound);
+  box.low.array() -= reach;
+  box.high.array() += reach;
+  const ClosestPointTree tree(walls_within(box, body, sheets));
+  double squared = 0;
+  for (const Vec3& x : faces)
+    squared = std::max(squared, std::min(tree.closest(x).squared_distance, squared_bound));
+  return std::sqrt(squared);
+}
 
 // None where it parts off too little.
 std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
-                                        Walls& walls) {
+                                        const TriMesh& body, const TriMesh& sheets,
+                                        const std::vector<Edge>& ends) {
   const auto smaller_side = [&] {
     const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
     return std::min(upper, static_cast<std::ptrdiff_t>(partition.side.size()) - upper);
@@ -112,10 +142,7 @@ std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, Ce
   out.grid = std::move(grid);
   out.partition = std::move(partition);
   out.faces = broken_faces(*out.grid, out.partition);
-  double widest = 0;
-  for (const Vec3& x : out.faces)
-    widest = std::max(widest, walls.tree().closest(x).squared_distance);
-  out.half_width = std::sqrt(widest);
+  out.half_width = half_width(out.faces, body, sheets, ends);
   out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(smaller);
   return out;
 }
@@ -126,9 +153,9 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
                                               LigamentsOf of) {
   if (sheets.corners.empty()) return {};
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
-  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, target_edge);
+  const std::vector<Edge> ends = boundary_edges(sheets);
+  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, ends, target_edge);
   const std::vector<int> part = connected_parts(sheets);
-  Walls walls(body, sheets);
   std::vector<LastLigament> found;
   const std::size_t parts = static_cast<std::size_t>(*std::max_element(part.begin(), part.end())) + 1;
   const bool together = parts > 1 && of == LigamentsOf::each_and_all;
@@ -139,7 +166,8 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
     return minimal_cut(*grid, crack, band);
   });
   for (CellPartition& cut : cuts)
-    if (auto ligament = ligament_of(grid, std::move(cut), walls)) found.push_back(*std::move(ligament));
+    if (auto ligament = ligament_of(grid, std::move(cut), body, sheets, ends))
+      found.push_back(*std::move(ligament));
   std::stable_sort(found.begin(), found.end(),
                    [](const LastLigament& x, const LastLigament& y) { return x.half_width < y.half_width; });
   return found;
@@ -149,7 +177,8 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
                                                const LastLigament& elsewhere) {
   if (sheets.corners.empty()) return std::nullopt;
   const auto grid = std::make_shared<const CellGrid>(body, sheets, cell_size(body, target_edge));
-  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, target_edge);
+  const std::vector<Edge> ends = boundary_edges(sheets);
+  const std::vector<std::uint8_t> band = cells_near_fronts(*grid, sheets, ends, target_edge);
   const std::vector<std::int8_t> sides = elsewhere.grid->by_cell(elsewhere.partition.side);
   std::vector<std::int8_t> known(grid->inside_count(), 0);
   parallel_for(grid->runs().size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -165,8 +194,7 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
     }
   });
   const std::vector<bool> all(sheets.triangle_count(), true);
-  Walls walls(body, sheets);
-  return ligament_of(grid, minimal_cut(*grid, all, band, known), walls);
+  return ligament_of(grid, minimal_cut(*grid, all, band, known), body, sheets, ends);
 }
 
 }  // namespace conchoid
