@@ -58,16 +58,24 @@ Mat3 axes_across(const TriMesh& body, const TriMesh& sheets) {
   return axes;
 }
 
-// Twice the area of (p, q, x) in the plane, the same number whichever of the two triangles along p q asks.
-double turn(const Vec2& p, NodeId a, const Vec2& q, NodeId b, const Vec2& x) {
-  if (b < a) return -turn(q, b, p, a, x);
-  return (q.x() - p.x()) * (x.y() - p.y()) - (q.y() - p.y()) * (x.x() - p.x());
-}
+// The line from p to q in the plane, by the ids of their nodes.
+class DirectedEdge {
+ public:
+  DirectedEdge() = default;
+  DirectedEdge(const Vec2& p, NodeId a, const Vec2& q, NodeId b)
+      : start_(a < b ? p : q), along_(a < b ? Vec2(q - p) : Vec2(p - q)), forward_(a < b) {}
+  /// Twice the area of (p, q, x), the same number whichever of the two triangles along p q asks.
+  double turn(const Vec2& x) const {
+    const double turn = along_.x() * (x.y() - start_.y()) - along_.y() * (x.x() - start_.x());
+    return forward_ ? turn : -turn;
+  }
+  /// Of a point on the edge itself one of its triangles has it, the other has not.
+  bool has(double turn) const { return turn > 0 || (turn == 0 && forward_); }
 
-// Of a point on the edge itself one of its triangles has it, the other has not.
-bool left_of(double turn, NodeId a, NodeId b) {
-  return turn > 0 || (turn == 0 && a < b);
-}
+ private:
+  Vec2 start_, along_;
+  bool forward_ = true;
+};
 
 // The lines of cells must not run along faces and edges that lie in the axes, as they do in bodies made by
 // program: shares of a cell by which they are off.
@@ -143,28 +151,6 @@ Vec3 CellGrid::center(std::size_t cell) const {
   return position({double(i), double(j), double(k)});
 }
 
-void CellGrid::mark_near(const Vec3& place, double reach, std::vector<bool>& near) const {
-  // Along an axis: the cells within a distance of the place.
-  const auto range = [&](int a, double within) {
-    return std::pair{std::max(static_cast<int>(std::ceil(place[a] - within)), 0),
-                     std::min(static_cast<int>(std::floor(place[a] + within)), count_[a] - 1)};
-  };
-  const auto left = [](double within, double used) {
-    return std::sqrt(std::max(0.0, within * within - used * used));
-  };
-  const auto [i0, i1] = range(0, reach);
-  for (int i = i0; i <= i1; ++i) {
-    const double across = left(reach, i - place[0]);
-    const auto [j0, j1] = range(1, across);
-    for (int j = j0; j <= j1; ++j) {
-      const auto [k0, k1] = range(2, left(across, j - place[1]));
-      if (k0 > k1) continue;
-      const auto first = near.begin() + static_cast<std::ptrdiff_t>(cell(i, j, k0));
-      std::fill(first, first + (k1 - k0 + 1), true);
-    }
-  }
-}
-
 std::vector<Vec3> CellGrid::places(const TriMesh& mesh) const {
   std::vector<Vec3> local;
   local.reserve(mesh.node_count());
@@ -184,14 +170,6 @@ void CellGrid::cross(const TriMesh& mesh, const std::vector<Vec3>& local, int ax
     std::array<Vec2, 3> p;
     for (int v = 0; v < 3; ++v)
       p[v] = {x[v][b], x[v][c]};
-    const double area = turn(p[0], n[0], p[1], n[1], p[2]);
-    if (area == 0) continue;
-    const bool upwards = (area > 0) == right_handed;
-    if (area < 0) {
-      std::swap(n[1], n[2]);
-      std::swap(x[1], x[2]);
-      std::swap(p[1], p[2]);
-    }
     const auto range = [&](int k, int most) {
       const auto [low, high] = std::minmax({p[0][k], p[1][k], p[2][k]});
       return std::pair{std::max(0, static_cast<int>(std::ceil(low))),
@@ -199,15 +177,26 @@ void CellGrid::cross(const TriMesh& mesh, const std::vector<Vec3>& local, int ax
     };
     const auto [b0, b1] = range(0, count_[b]);
     const auto [c0, c1] = range(1, count_[c]);
+    if (b0 > b1 || c0 > c1) continue;
+    const double area = DirectedEdge(p[0], n[0], p[1], n[1]).turn(p[2]);
+    if (area == 0) continue;
+    const bool upwards = (area > 0) == right_handed;
+    if (area < 0) {
+      std::swap(n[1], n[2]);
+      std::swap(x[1], x[2]);
+      std::swap(p[1], p[2]);
+    }
+    std::array<DirectedEdge, 3> opposite;  // of each corner
+    for (int v = 0; v < 3; ++v)
+      opposite[(v + 2) % 3] = {p[v], n[v], p[(v + 1) % 3], n[(v + 1) % 3]};
     for (int i = b0; i <= b1; ++i)
       for (int j = c0; j <= c1; ++j) {
         const Vec2 q(i, j);
         std::array<double, 3> w{};
         bool in = true;
-        for (int v = 0; v < 3 && in; ++v) {
-          const int u = (v + 1) % 3;
-          w[(v + 2) % 3] = turn(p[v], n[v], p[u], n[u], q);
-          in = left_of(w[(v + 2) % 3], n[v], n[u]);
+        for (int v = 0; v < 3; ++v) {
+          w[v] = opposite[v].turn(q);
+          in = in && opposite[v].has(w[v]);
         }
         if (!in) continue;
         const double z = (w[0] * x[0][axis] + w[1] * x[1][axis] + w[2] * x[2][axis]) / (w[0] + w[1] + w[2]);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "conchoid/mesh/tri_mesh.hpp"
@@ -56,8 +58,28 @@ class CellGrid {
   Vec3 position(const Vec3& place) const { return origin_ + size_ * (axes_ * place); }
   Vec3 place_of(const Vec3& position) const { return axes_.transpose() * (position - origin_) / size_; }
 
-  /// The cells whose centres lie within `reach` cells of a place counted in cells.
-  void mark_near(const Vec3& place, double reach, std::vector<bool>& near) const;
+  /// Calls found(first, end) for the cells first, …, end − 1 of each line along the third axis whose centres lie within
+  /// `reach` cells of a place counted in cells.
+  template <class Found>
+  void for_lines_near(const Vec3& place, double reach, const Found& found) const {
+    // Along an axis: the cells within a distance of the place.
+    const auto range = [&](int a, double within) {
+      return std::pair{std::max(static_cast<int>(std::ceil(place[a] - within)), 0),
+                       std::min(static_cast<int>(std::floor(place[a] + within)), count_[a] - 1)};
+    };
+    const auto left = [](double within, double used) {
+      return std::sqrt(std::max(0.0, within * within - used * used));
+    };
+    const auto [i0, i1] = range(0, reach);
+    for (int i = i0; i <= i1; ++i) {
+      const double across = left(reach, i - place[0]);
+      const auto [j0, j1] = range(1, across);
+      for (int j = j0; j <= j1; ++j) {
+        const auto [k0, k1] = range(2, left(across, j - place[1]));
+        if (k0 <= k1) found(cell(i, j, k0), cell(i, j, k1) + 1);
+      }
+    }
+  }
 
   bool inside(std::size_t cell) const { return number(cell) >= 0; }
   /// How many cells are inside of the body: mostly few of those of its box. They are numbered in the order of their ids.
@@ -66,6 +88,18 @@ class CellGrid {
   std::int32_t number(std::size_t cell) const;
   /// All cells inside, in order.
   const std::vector<CellRun>& runs() const { return runs_; }
+  /// Calls found(number, count) for those inside among the cells first, …, end − 1 of one line along the third axis.
+  template <class Found>
+  void for_inside(std::size_t first, std::size_t end, const Found& found) const {
+    const std::size_t line = first / step_[1];
+    for (std::size_t r = first_run_[line]; r < first_run_[line + 1]; ++r) {
+      const CellRun& run = runs_[r];
+      const std::size_t low = std::max(first, run.cell);
+      const std::size_t high = std::min(end, run.cell + static_cast<std::size_t>(run.count));
+      if (low < high)
+        found(run.number + static_cast<std::int32_t>(low - run.cell), static_cast<std::int32_t>(high - low));
+    }
+  }
   /// All neighbours along an axis that are both inside, in order.
   const std::vector<CellPairs>& pairs(int axis) const { return pairs_[static_cast<std::size_t>(axis)]; }
   /// Whether nothing stands between a cell inside, by its number, and the one ahead along an axis.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "conchoid/core/parallel.hpp"
@@ -37,22 +38,22 @@ std::optional<std::size_t> cell_at(const CellGrid& grid, const Vec3& place) {
 // Per cell inside whether it is within kLigamentBand of the cracks' ends inside of the body.
 std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh& sheets,
                                             const std::vector<Edge>& ends, double target_edge) {
-  std::vector<bool> band(grid.cells(), false), done(grid.cells(), false);
+  std::vector<std::uint8_t> band(grid.inside_count(), 0);
+  std::vector<bool> done(grid.inside_count(), false);
   const double reach = kLigamentBand * target_edge / grid.size();
   for (const Edge& e : ends) {
     const Vec3 x = grid.place_of(0.5 * (sheets.positions[e.a] + sheets.positions[e.b]));
-    const auto here = cell_at(grid, x);
-    if (!here || !grid.inside(*here) || done[*here]) continue;
-    done[*here] = true;
-    grid.mark_near(x, reach, band);
+    const auto cell = cell_at(grid, x);
+    const std::int32_t here = cell ? grid.number(*cell) : -1;
+    if (here < 0 || done[static_cast<std::size_t>(here)]) continue;
+    done[static_cast<std::size_t>(here)] = true;
+    grid.for_lines_near(x, reach, [&](std::size_t first, std::size_t end) {
+      grid.for_inside(first, end, [&](std::int32_t number, std::int32_t count) {
+        std::memset(band.data() + number, 1, static_cast<std::size_t>(count));
+      });
+    });
   }
-  std::vector<std::uint8_t> of_inside;
-  of_inside.reserve(grid.inside_count());
-  for (const CellRun& run : grid.runs()) {
-    const auto first = band.begin() + static_cast<std::ptrdiff_t>(run.cell);
-    of_inside.insert(of_inside.end(), first, first + run.count);
-  }
-  return of_inside;
+  return band;
 }
 
 // Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side: nothing
@@ -61,24 +62,21 @@ void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
   const CellSets sets =
       sets_of_cells(grid, [&](std::size_t i, int, std::size_t next) { return side[i] == side[next]; });
   std::vector<int> cells(static_cast<std::size_t>(sets.count), 0);
-  for (const std::int32_t set : sets.of_cell)
-    ++cells[static_cast<std::size_t>(set)];
-  for (std::size_t i = 0; i < side.size(); ++i)
-    if (cells[static_cast<std::size_t>(sets.of_cell[i])] < kFewestCells)
-      side[i] = static_cast<std::int8_t>(-side[i]);
+  for (const CellSets::Chain& chain : sets.chains)
+    cells[static_cast<std::size_t>(chain.set)] += chain.size();
+  for (const CellSets::Chain& chain : sets.chains)
+    if (cells[static_cast<std::size_t>(chain.set)] < kFewestCells)
+      for (std::int32_t i = chain.first; i < chain.end; ++i)
+        side[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(-side[static_cast<std::size_t>(i)]);
 }
 
-std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition) {
+// In the order of their cells.
+std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partition,
+                               const std::vector<std::uint8_t>& band) {
   std::vector<std::array<std::size_t, 2>> cells;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const CellPairs& pairs : grid.pairs(axis))
-      for (std::int32_t k = 0; k < pairs.count; ++k) {
-        const auto i = static_cast<std::size_t>(pairs.number + k),
-                   n = static_cast<std::size_t>(pairs.ahead + k);
-        if (partition.side[i] == partition.side[n] || !grid.open(i, axis)) continue;
-        const std::size_t cell = pairs.cell + static_cast<std::size_t>(k);
-        cells.push_back({cell, grid.next(cell, axis)});
-      }
+  for_faces_in_band(grid, band, [&](std::size_t i, std::size_t next, std::size_t cell, int axis) {
+    if (partition.side[i] != partition.side[next]) cells.push_back({cell, grid.next(cell, axis)});
+  });
   std::sort(cells.begin(), cells.end());
   std::vector<Vec3> faces;
   faces.reserve(cells.size());
@@ -129,7 +127,8 @@ double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const Tri
 // None where it parts off too little.
 std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, CellPartition partition,
                                         const TriMesh& body, const TriMesh& sheets,
-                                        const std::vector<Edge>& ends) {
+                                        const std::vector<Edge>& ends,
+                                        const std::vector<std::uint8_t>& band) {
   const auto smaller_side = [&] {
     const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
     return std::min(upper, static_cast<std::ptrdiff_t>(partition.side.size()) - upper);
@@ -141,7 +140,7 @@ std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, Ce
   LastLigament out;
   out.grid = std::move(grid);
   out.partition = std::move(partition);
-  out.faces = broken_faces(*out.grid, out.partition);
+  out.faces = broken_faces(*out.grid, out.partition, band);
   out.half_width = half_width(out.faces, body, sheets, ends);
   out.smaller_part = std::pow(out.grid->size(), 3) * static_cast<double>(smaller);
   return out;
@@ -166,7 +165,7 @@ std::vector<LastLigament> find_last_ligaments(const TriMesh& body, const TriMesh
     return minimal_cut(*grid, crack, band);
   });
   for (CellPartition& cut : cuts)
-    if (auto ligament = ligament_of(grid, std::move(cut), body, sheets, ends))
+    if (auto ligament = ligament_of(grid, std::move(cut), body, sheets, ends, band))
       found.push_back(*std::move(ligament));
   std::stable_sort(found.begin(), found.end(),
                    [](const LastLigament& x, const LastLigament& y) { return x.half_width < y.half_width; });
@@ -194,7 +193,7 @@ std::optional<LastLigament> find_same_ligament(const TriMesh& body, const TriMes
     }
   });
   const std::vector<bool> all(sheets.triangle_count(), true);
-  return ligament_of(grid, minimal_cut(*grid, all, band, known), body, sheets, ends);
+  return ligament_of(grid, minimal_cut(*grid, all, band, known), body, sheets, ends, band);
 }
 
 }  // namespace conchoid

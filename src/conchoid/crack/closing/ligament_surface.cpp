@@ -105,12 +105,17 @@ class SurfaceMaker {
 
   TriMesh over_ends(const LigamentOverlap& overlap) {
     near_.assign(grid_.cells(), false);
+    const auto mark_near = [&](const Vec3& x) {
+      grid_.for_lines_near(grid_.place_of(x), overlap.cells, [&](std::size_t first, std::size_t end) {
+        std::fill(near_.begin() + static_cast<std::ptrdiff_t>(first),
+                  near_.begin() + static_cast<std::ptrdiff_t>(end), true);
+      });
+    };
     for (const Vec3& x : ligament_.faces)
-      grid_.mark_near(grid_.place_of(x), overlap.cells, near_);
+      mark_near(x);
     // Wherever the cracks that part the two sides end: there they may not quite reach each other.
     for (const Edge& e : boundary_edges(sheets_))
-      grid_.mark_near(grid_.place_of(0.5 * (sheets_.positions[e.a] + sheets_.positions[e.b])), overlap.cells,
-                      near_);
+      mark_near(0.5 * (sheets_.positions[e.a] + sheets_.positions[e.b]));
     march();
     place(overlap.offset);
     smooth(kSmoothingRounds);

@@ -1,9 +1,9 @@
 #include "conchoid/crack/closing/minimal_cut.hpp"
 
+#include <algorithm>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "conchoid/core/interrupt.hpp"
@@ -45,23 +45,6 @@ CellSets vertices_of(const CellGrid& grid, const std::vector<std::uint8_t>& band
   return sets_of_cells(grid, [&](std::size_t i, int axis, std::size_t next) {
     return !band[i] && !band[next] && grid.open(i, axis);
   });
-}
-
-// Calls connect(number, number) for neighbours of which one at least is in the band, and that nothing parts.
-template <class Connect>
-void for_faces_in_band(const CellGrid& grid, const std::vector<std::uint8_t>& band, const Connect& connect) {
-  const auto any = [&](std::int32_t first, std::int32_t count) {
-    return std::memchr(band.data() + first, 1, static_cast<std::size_t>(count)) != nullptr;
-  };
-  for (int axis = 0; axis < 3; ++axis)
-    for (const CellPairs& pairs : grid.pairs(axis)) {
-      if (!any(pairs.number, pairs.count) && !any(pairs.ahead, pairs.count)) continue;
-      for (std::int32_t k = 0; k < pairs.count; ++k) {
-        const auto i = static_cast<std::size_t>(pairs.number + k),
-                   n = static_cast<std::size_t>(pairs.ahead + k);
-        if ((band[i] || band[n]) && grid.open(i, axis)) connect(i, n);
-      }
-    }
 }
 
 // Arcs out of each vertex, one after the other; each with its capacity and its opposite.
@@ -125,8 +108,8 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
   });
   for (std::size_t i = 0; i < known.size(); ++i)
     if (known[i] != 0) (known[i] > 0 ? up : down)[static_cast<std::size_t>(vertex[i])] = 1;
-  for_faces_in_band(grid, band, [&](std::size_t cell, std::size_t next) {
-    builder.connect(vertex[cell], vertex[next], kFaceCost, kFaceCost);
+  for_faces_in_band(grid, band, [&](std::size_t i, std::size_t next, std::size_t, int) {
+    builder.connect(vertex[i], vertex[next], kFaceCost, kFaceCost);
   });
   const int unused = static_cast<int>(std::lround(kUnusedFace * kFaceCost));
   for (std::int32_t v = 0; v < count; ++v) {
@@ -156,9 +139,11 @@ CellPartition minimal_cut(const CellGrid& grid, const std::vector<bool>& crack,
       boost::make_iterator_property_map(color.begin(), by_vertex),
       boost::make_iterator_property_map(distance.begin(), by_vertex), by_vertex, source, sink);
   CellPartition out;
-  out.side.reserve(vertex.size());
-  for (const std::int32_t v : vertex)
-    out.side.push_back(color[v] == color[source] ? 1 : -1);
+  out.side.resize(vertex.size());
+  for (const CellSets::Chain& chain : vertices.chains) {
+    const bool upper = color[static_cast<std::size_t>(chain.set)] == color[static_cast<std::size_t>(source)];
+    std::fill(out.side.begin() + chain.first, out.side.begin() + chain.end, std::int8_t(upper ? 1 : -1));
+  }
   return out;
 }
 

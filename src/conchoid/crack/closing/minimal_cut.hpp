@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "conchoid/crack/closing/cell_grid.hpp"
@@ -11,6 +12,24 @@ namespace conchoid {
 struct CellPartition {
   std::vector<std::int8_t> side;  ///< per cell inside of the body: 1 or −1
 };
+
+/// Calls found(number, number ahead, cell, axis) for neighbours that nothing parts and of which one at least is in the band.
+template <class Found>
+void for_faces_in_band(const CellGrid& grid, const std::vector<std::uint8_t>& band, const Found& found) {
+  const auto any = [&](std::int32_t first, std::int32_t count) {
+    return std::memchr(band.data() + first, 1, static_cast<std::size_t>(count)) != nullptr;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const CellPairs& pairs : grid.pairs(axis)) {
+      if (!any(pairs.number, pairs.count) && !any(pairs.ahead, pairs.count)) continue;
+      for (std::int32_t k = 0; k < pairs.count; ++k) {
+        const auto i = static_cast<std::size_t>(pairs.number + k),
+                   n = static_cast<std::size_t>(pairs.ahead + k);
+        if ((band[i] || band[n]) && grid.open(i, axis))
+          found(i, n, pairs.cell + static_cast<std::size_t>(k), axis);
+      }
+    }
+}
 
 /// The division of the body with the least new surface that keeps the two sides of a crack apart: a minimal
 /// cut of the graph of cells, in which a face between neighbours costs its area where nothing stands between
