@@ -39,6 +39,10 @@ TEST(ClosestPoint, TreeAgreesWithLookingAtEveryTriangle) {
     const auto hit = tree.closest(x);
     EXPECT_EQ(hit.triangle, best);
     EXPECT_EQ(hit.squared_distance, best2);
+    const ClosestHit alone = closest_point(mesh, x);
+    EXPECT_EQ(alone.triangle, best);
+    EXPECT_EQ(alone.point, hit.point);
+    EXPECT_EQ(alone.squared_distance, best2);
   }
 }
 
@@ -46,4 +50,5 @@ TEST(ClosestPoint, NothingIsInfinitelyFarAway) {
   const auto hit = ClosestPointTree(TriMesh{}).closest(Vec3::Zero());
   EXPECT_FALSE(hit.triangle.valid());
   EXPECT_EQ(hit.squared_distance, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(closest_point(TriMesh{}, Vec3::Zero()).triangle.valid());
 }

@@ -12,7 +12,9 @@ namespace conchoid {
 namespace {
 
 double thickness_below(const TriMesh& mesh, const Vec3& x, const Vec3& normal, double reach) {
-  return WallProbe(mesh).thickness(x, normal, reach);
+  const double thickness = WallProbe(mesh).thickness(x, normal, reach);
+  EXPECT_EQ(wall_thickness(mesh, x, normal, reach), thickness);
+  return thickness;
 }
 
 TEST(WallThickness, IsThatOfABoxFromAllItsSides) {

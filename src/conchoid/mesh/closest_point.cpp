@@ -1,7 +1,6 @@
 #include "conchoid/mesh/closest_point.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace conchoid {
 namespace {
@@ -32,6 +31,27 @@ Vec3 closest_point_on_triangle(const Triangle& triangle, const Vec3& x) {
   return best;
 }
 
+namespace {
+
+// Puts triangle t into its place; returns the bound for those still to come.
+double compare(const Triangle& triangle, TriId t, const Vec3& x, ClosestHit& best) {
+  const Vec3 point = closest_point_on_triangle(triangle, x);
+  const double d2 = (point - x).squaredNorm();
+  if (d2 < best.squared_distance || (d2 == best.squared_distance && t < best.triangle)) best = {t, point, d2};
+  return best.squared_distance;
+}
+
+}  // namespace
+
+ClosestHit closest_point(const TriMesh& mesh, const Vec3& x) {
+  ClosestHit best;
+  for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value) {
+    const Triangle triangle = mesh.triangle(t);
+    if (squared_distance(box_of(triangle), x) <= best.squared_distance) compare(triangle, t, x, best);
+  }
+  return best;
+}
+
 ClosestPointTree::ClosestPointTree(const TriMesh& mesh) : tree_(mesh) {
   triangles_.reserve(mesh.triangle_count());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
@@ -40,14 +60,8 @@ ClosestPointTree::ClosestPointTree(const TriMesh& mesh) : tree_(mesh) {
 
 ClosestPointTree::Hit ClosestPointTree::closest(const Vec3& x) const {
   Hit best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
-  tree_.visit_near(x, best.squared_distance, [&](TriId t) {
-    const Vec3 point = closest_point_on_triangle(triangles_[t.index()], x);
-    const double d2 = (point - x).squaredNorm();
-    if (d2 < best.squared_distance || (d2 == best.squared_distance && t < best.triangle))
-      best = {t, point, d2};
-    return best.squared_distance;
-  });
+  tree_.visit_near(x, best.squared_distance,
+                   [&](TriId t) { return compare(triangles_[t.index()], t, x, best); });
   return best;
 }
 

@@ -27,11 +27,12 @@ class WallProbe {
   IdVector<TriId, double> thickness(const IdVector<TriId, double>& reach) const;
 
  private:
-  double depth(const Vec3& x, const Vec3& direction, double reach) const;
-
   TriMesh body_;
   BoxTree tree_;
 };
+
+/// The same at a single place, for which no tree is made.
+double wall_thickness(const TriMesh& body, const Vec3& x, const Vec3& normal, double reach);
 
 /// Root of the mean square of the three edges of a triangle [m]: the length in which the error of linear functions
 /// goes, and the edge of an equilateral triangle.

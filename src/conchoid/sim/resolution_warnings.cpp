@@ -123,8 +123,8 @@ std::optional<std::string> outline_warning(const PreparedBody& body, const Vec3&
   if (body.infinite() || body.same_mesh()) return std::nullopt;
   const double far = bounding_box(body.detailed).diagonal();
   const auto thickness_at = [&](const TriMesh& mesh) {
-    const auto hit = ClosestPointTree(mesh).closest(x);
-    return WallProbe(mesh).thickness(hit.point, unit_normal(mesh, hit.triangle), far);
+    const ClosestHit hit = closest_point(mesh, x);
+    return wall_thickness(mesh, hit.point, unit_normal(mesh, hit.triangle), far);
   };
   const double elements = thickness_at(body.surface), detailed = thickness_at(body.detailed);
   if (!std::isfinite(elements) || !std::isfinite(detailed) ||
