@@ -100,5 +100,47 @@ TEST(MendedFragment, TheSurfaceWithoutSlitsIsMendedToo) {
   EXPECT_EQ(f.unfinished.solid_face.size(), f.unfinished.solid.triangle_count());
 }
 
+/// A box with two nodes that are the same but for the last bits, as rounded cuts leave them, on an edge of its top.
+Fragment box_with_needles() {
+  Fragment f;
+  f.mesh = box_mesh(Vec3::Constant(1), 4, 4, 4);
+  const double top = bounding_box(f.mesh).high.z() - 1e-9;
+  const auto at_top = [&](std::size_t t) { return centroid(f.mesh, TriId(t)).z() > top; };
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+    for (std::size_t u = t + 1; u < f.mesh.triangle_count() && f.face_kind.empty(); ++u) {
+      const auto x = f.mesh.corners[TriId(t)], y = f.mesh.corners[TriId(u)];
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) {
+          const NodeId a = x[k], b = x[(k + 1) % 3], c = x[(k + 2) % 3], d = y[(l + 2) % 3];
+          if (!f.face_kind.empty() || y[l] != b || y[(l + 1) % 3] != a || !at_top(t) || !at_top(u)) continue;
+          Vec3 middle = 0.5 * (f.mesh.positions[a] + f.mesh.positions[b]);
+          const NodeId n = f.mesh.positions.add(middle);
+          middle.x() = std::nextafter(middle.x(), 2);
+          const NodeId m = f.mesh.positions.add(middle);
+          f.mesh.corners[TriId(t)] = {a, m, c};
+          f.mesh.corners[TriId(u)] = {b, n, d};
+          for (const auto& more : {std::array{m, b, c}, {n, a, d}, {a, n, m}, {b, m, n}})
+            f.mesh.corners.push_back(more);
+          f.face_kind.assign(f.mesh.triangle_count(), FaceKind::original);
+        }
+    }
+  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+    f.source.emplace_back(t);
+  return f;
+}
+
+// A piece of a tube was left as it was, as its surface had such triangles.
+TEST(MendedFragment, TrianglesWithoutAreaAreTakenOutOfASolid) {
+  Fragment f = box_with_needles();
+  ASSERT_TRUE(is_solid(f));
+  ASSERT_FALSE(find_defects(f.mesh).empty());
+  f.unfinished.solid = f.mesh;
+  mend_fragment(f);
+  EXPECT_TRUE(find_defects(f.mesh).empty());
+  EXPECT_TRUE(find_defects(f.unfinished.solid).empty());
+  EXPECT_NEAR(enclosed_volume(f.mesh), 1, 1e-12);
+  EXPECT_EQ(f.face_kind.size(), f.mesh.triangle_count());
+}
+
 }  // namespace
 }  // namespace conchoid

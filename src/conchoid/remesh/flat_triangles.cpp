@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "conchoid/remesh/editable_mesh.hpp"
+#include "conchoid/remesh/tidy.hpp"
+#include "conchoid/remesh/weld.hpp"
 
 namespace conchoid {
 namespace {
@@ -62,7 +64,16 @@ class FlatTriangles {
       std::erase(at_edge_[edge(t, k)], t);
   }
 
+  /// Two of its nodes coincide: turned over, it would be one again.
+  bool is_needle(TriId t) const {
+    const Triangle x = mesh_.triangle(t);
+    const auto [shortest, longest] =
+        std::minmax({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+    return shortest <= flattest_triangle * longest;
+  }
+
   bool flip(TriId t) {
+    if (is_needle(t)) return false;
     const std::size_t k = longest(t);
     const NodeId a = mesh_.corners[t][k], b = mesh_.corners[t][(k + 1) % 3],
                  c = mesh_.corners[t][(k + 2) % 3];
@@ -102,8 +113,27 @@ class FlatTriangles {
 
 }  // namespace
 
+bool has_flat_triangle(const TriMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (flatness(mesh.triangle(TriId(t))) <= flattest_triangle) return true;
+  return false;
+}
+
 std::size_t flip_flat_triangles(TriMesh& mesh) {
   return FlatTriangles(mesh).run();
+}
+
+FlatTrianglesRemoved remove_flat_triangles(TriMesh& mesh) {
+  constexpr int most_rounds = 4;
+  FlatTrianglesRemoved removed;
+  for (int round = 0; round < most_rounds && has_flat_triangle(mesh); ++round) {
+    WeldReport weld;
+    mesh = welded(mesh, weld, nullptr, 2 * flattest_triangle);
+    removed.welded += weld.nodes;
+    removed.flipped += flip_flat_triangles(mesh);
+  }
+  drop_unused_nodes(mesh);
+  return removed;
 }
 
 }  // namespace conchoid

@@ -43,7 +43,9 @@ void mend_connectivity(TriMesh& mesh, MendReport& report) {
   report.flipped += flip_flat_triangles(mesh);
   orient_neighbours_alike(mesh);
   report.filled_holes += close_holes(mesh);
-  report.flipped += flip_flat_triangles(mesh);
+  const FlatTrianglesRemoved flat = remove_flat_triangles(mesh);
+  report.flipped += flat.flipped;
+  report.weld.nodes += flat.welded;
   report.dropped += drop_useless_triangles(mesh, false);
   report.inner_walls += drop_inner_walls(mesh);
   orient_neighbours_alike(mesh);

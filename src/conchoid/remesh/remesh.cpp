@@ -374,6 +374,18 @@ TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* repo
   return remesh(detailed, target_triangles, {}, report);
 }
 
+TriMesh remesh_or_more(const TriMesh& detailed, int wanted, int most) {
+  constexpr int attempts = 6;
+  constexpr double rise = 1.2;  // of what is asked for
+  for (int left = attempts;; --left)
+    try {
+      return remesh(detailed, wanted);
+    } catch (const TriangleCountError& error) {
+      wanted = std::max(static_cast<int>(error.allowed()), static_cast<int>(rise * wanted));
+      if (left == 0 || wanted > most) throw;
+    }
+}
+
 TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettings& settings,
                RemeshReport* report) {
   if (target_triangles < 20) throw InputError("remesh: ask for at least 20 triangles");

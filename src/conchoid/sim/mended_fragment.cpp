@@ -8,6 +8,7 @@
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/remesh/editable_mesh.hpp"
+#include "conchoid/remesh/flat_triangles.hpp"
 #include "conchoid/remesh/mend.hpp"
 #include "conchoid/remesh/patch_intersections.hpp"
 #include "conchoid/remesh/tidy.hpp"
@@ -45,28 +46,49 @@ std::vector<TriId> nearest_faces(const TriMesh& of, const TriMesh& on) {
   return nearest;
 }
 
-// The triangles around the folds made anew, as few as will do; else all that mending can do.
-std::optional<TriMesh> unfolded(const TriMesh& mesh, double most) {
+// The triangles around the folds made anew, as few as will do; else all that mending can do. A solid, without triangles that
+// have no area if that can be had.
+std::optional<TriMesh> unfolded(const TriMesh& mesh, bool solid, double most) {
   const double volume = enclosed_volume(mesh);
-  const auto good = [&](const TriMesh& tried) {
+  std::optional<TriMesh> with_flat_triangles;
+  const auto is_same = [&](const TriMesh& tried) {
     return is_solid(tried) && std::abs(enclosed_volume(tried) - volume) <= most * std::abs(volume);
   };
-  for (int rings = 0; rings <= kMostRings; ++rings) {
+  const auto good = [&](TriMesh& tried) {
+    if (!is_same(tried)) return false;
+    if (!has_flat_triangle(tried)) return true;
+    TriMesh without = tried;
+    remove_flat_triangles(without);
+    if (!has_flat_triangle(without) && is_same(without)) {
+      tried = std::move(without);
+      return true;
+    }
+    if (!solid && !with_flat_triangles) with_flat_triangles = tried;
+    return false;
+  };
+  for (int rings = 0; !solid && rings <= kMostRings; ++rings) {
     TriMesh tried = mesh;
     for (int pass = 0; pass < kMostPasses && patch_intersections(tried, rings) > 0; ++pass) {
       drop_unused_nodes(tried);
       if (good(tried)) return tried;
     }
   }
+  if (TriMesh tried = mesh; solid && good(tried)) return tried;
   MendReport report;
   TriMesh tried = mended(mesh, report);
-  return good(tried) ? std::optional(std::move(tried)) : std::nullopt;
+  return good(tried) ? std::optional(std::move(tried)) : std::move(with_flat_triangles);
+}
+
+// None where it is fine, or as good as it can be made.
+std::optional<TriMesh> mended_surface(const TriMesh& mesh, double most) {
+  const bool solid = is_solid(mesh);
+  if (solid && !has_flat_triangle(mesh)) return std::nullopt;
+  return unfolded(mesh, solid, most);
 }
 
 // Whether it was changed.
 bool mend_surface(Fragment& f, double most) {
-  if (is_solid(f.mesh)) return false;
-  std::optional<TriMesh> mesh = unfolded(f.mesh, most);
+  std::optional<TriMesh> mesh = mended_surface(f.mesh, most);
   if (!mesh) return false;
   std::vector<FaceKind> kind;
   std::vector<TriId> source;
@@ -84,8 +106,8 @@ bool mend_surface(Fragment& f, double most) {
 
 // Likewise. The slits that part its faces in the piece can hide where they pass through each other.
 bool mend_solid(UnfinishedCracks& cracks, double most) {
-  if (cracks.solid.corners.empty() || is_solid(cracks.solid)) return false;
-  std::optional<TriMesh> solid = unfolded(cracks.solid, most);
+  if (cracks.solid.corners.empty()) return false;
+  std::optional<TriMesh> solid = mended_surface(cracks.solid, most);
   if (solid) cracks.solid = std::move(*solid);
   return solid.has_value();
 }

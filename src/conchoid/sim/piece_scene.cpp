@@ -12,24 +12,16 @@
 namespace conchoid {
 namespace {
 
-constexpr int kFewestElements = 120;                     // of a piece, however small: as the built-in cube
-constexpr std::array kTargets{1.0, 1.4, 2.0, 2.8, 4.0};  // × the elements wanted, until the mesh can be made
-constexpr int kMostElements = 200000, kFewFaces = 20;    // that remesh() takes
+constexpr int kFewestElements = 120;    // of a piece, however small: as the built-in cube
+constexpr int kMostElements = 200000;   // that remesh() takes
+constexpr double kMostForItsArea = 16;  // × the elements wanted, for a piece of limbs and folds
 
 TriMesh elements_of(const TriMesh& piece, double element_area) {
   const double wanted = std::max<double>(kFewestElements, surface_area(piece) / element_area);
-  const auto target = [&](std::size_t i) {
-    return static_cast<int>(std::clamp<double>(std::round(kTargets[i] * wanted), kFewFaces, kMostElements));
+  const auto elements = [&](double share) {
+    return static_cast<int>(std::min<double>(std::round(share * wanted), kMostElements));
   };
-  for (std::size_t i = 0;;)
-    try {
-      return remesh(piece, target(i));
-    } catch (const TriangleCountError& error) {
-      // The next, but none that is as far from what the shape allows.
-      do
-        if (++i == kTargets.size()) throw;
-      while (!remesh_meets(target(i), error.allowed()) && target(i) < static_cast<int>(error.allowed()));
-    }
+  return remesh_or_more(piece, elements(1), elements(kMostForItsArea));
 }
 
 // Which region of the body the elements of the piece belong to; −1: none.

@@ -18,9 +18,7 @@
 namespace conchoid {
 namespace {
 
-constexpr int kScanTriangles = 20;  // of a scan for each element
-constexpr int kScanAttempts = 6;
-constexpr double kScanRise = 1.2;      // of the elements asked for, from one attempt to the next
+constexpr int kScanTriangles = 20;     // of a scan for each element
 constexpr double kScanStretch = 1.25;  // at most, of each extent
 
 // Edge of so many equilateral triangles on a surface.
@@ -175,17 +173,6 @@ constexpr std::array<BodyClass, 9> classes = {{{"box", random_box},
                                                {"blob", random_blob},
                                                {"polyhedron", random_polyhedron}}};
 
-// As many triangles as wanted, or as a shape of limbs and folds needs: what it allows grows with what it is asked for.
-TriMesh decimated(const TriMesh& mesh, int wanted) {
-  for (int attempt = 0;; ++attempt)
-    try {
-      return remesh(mesh, wanted);
-    } catch (const TriangleCountError& error) {
-      if (attempt == kScanAttempts) throw;
-      wanted = std::max(static_cast<int>(error.allowed()), static_cast<int>(kScanRise * wanted));
-    }
-}
-
 }  // namespace
 
 const std::vector<std::string_view>& body_class_names() {
@@ -219,7 +206,7 @@ TriMesh scan_of(TriMesh body, int elements) {
   for (Vec3& x : body.positions)
     x = (x - box.center()) / (box.high - box.low).maxCoeff();
   const int enough = kScanTriangles * elements;
-  return body.triangle_count() <= static_cast<std::size_t>(enough) ? body : decimated(body, enough);
+  return body.triangle_count() <= static_cast<std::size_t>(enough) ? body : remesh_or_more(body, enough);
 }
 
 RandomBody random_scan(const std::vector<TriMesh>& scans, int elements, Random& random) {
@@ -229,7 +216,7 @@ RandomBody random_scan(const std::vector<TriMesh>& scans, int elements, Random& 
     factor = std::pow(kScanStretch, random.uniform(-1, 1));
   for (Vec3& x : mesh.positions)
     x = x.cwiseProduct(stretch);
-  RandomBody body{decimated(mesh, elements), random.unit_vector(), 0};
+  RandomBody body{remesh_or_more(mesh, elements), random.unit_vector(), 0};
   const double across = bounding_box(body.surface).diagonal();
   body.thickness = thinnest_wall(body.surface, across).value_or(across);
   return body;
