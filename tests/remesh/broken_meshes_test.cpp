@@ -127,6 +127,23 @@ void pinch(TriMesh& m) {
     m.corners.push_back(outward ? std::array{c[0], c[2], c[1]} : c);
 }
 
+/// A small hollow that opens in an edge of the surface, whose ends are tips of it.
+void pocket(TriMesh& m) {
+  const TriId t(m.triangle_count() / 5);
+  const NodeId a = m.corners[t][0], b = m.corners[t][1];
+  const Vec3 x = 0.5 * (m.positions[a] + m.positions[b]);
+  Vec3 n = Vec3::Zero();
+  for (std::size_t s = 0; s < m.triangle_count(); ++s)
+    if (has(m.corners[TriId(s)], a) && has(m.corners[TriId(s)], b)) n += unit_normal(m, TriId(s));
+  n.normalize();
+  const Vec3 across = cross(n, (m.positions[b] - m.positions[a]).normalized());
+  const double e = 0.1 * mean_edge(m);
+  const NodeId p = m.positions.add(x - e * (n + 0.3 * across)),
+               q = m.positions.add(x - e * (n - 0.3 * across));
+  for (const auto& c : {std::array{a, b, p}, {b, a, q}, {a, p, q}, {b, q, p}})
+    m.corners.push_back(c);
+}
+
 /// A node of a rather flat part pushed inward, through the other side of the body.
 void spike(TriMesh& m) {
   const auto is_flat_at = [&](NodeId n, const Vec3& normal) {
@@ -156,6 +173,7 @@ const std::vector<Defect> defects = {{"spike", spike},
                                      {"wall", inner_wall},
                                      {"fin", fin},
                                      {"pinch", pinch},
+                                     {"pocket", pocket},
                                      {"seam", loose_seam}};
 
 struct Broken {

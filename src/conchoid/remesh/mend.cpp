@@ -36,9 +36,12 @@ std::size_t drop_flat_parts(TriMesh& mesh) {
   return count;
 }
 
+/// Whether what touches at edges alone is parted there, between tips: last, as such edges may tell of bodies to be united.
+enum class Edges { as_they_are, parted };
+
 /// Connectivity: afterwards every edge has two triangles that run through it in both directions, and every node
 /// one fan, where that can be had.
-void mend_connectivity(TriMesh& mesh, MendReport& report) {
+void mend_connectivity(TriMesh& mesh, Edges edges, MendReport& report) {
   report.dropped += drop_useless_triangles(mesh, false);
   report.flipped += flip_flat_triangles(mesh);
   orient_neighbours_alike(mesh);
@@ -51,6 +54,7 @@ void mend_connectivity(TriMesh& mesh, MendReport& report) {
   orient_neighbours_alike(mesh);
   turn_parts(mesh);
   report.split_nodes += split_pinches(mesh);
+  if (std::vector<TriId> halved; edges == Edges::parted) report.split_nodes += part_edges(mesh, halved);
   report.flat_parts += drop_flat_parts(mesh);
   turn_parts(mesh);
 }
@@ -61,7 +65,7 @@ namespace {
 
 enum class Bodies { as_they_are, united_first };
 
-TriMesh mended(const TriMesh& mesh, Bodies bodies, MendReport& report) {
+TriMesh mended(const TriMesh& mesh, Bodies bodies, Edges edges, MendReport& report) {
   report = {};
   Progress progress("mending", 4);
   throw_if_interrupted();
@@ -70,12 +74,12 @@ TriMesh mended(const TriMesh& mesh, Bodies bodies, MendReport& report) {
   merge_equal_nodes(out);
   out = welded(out, report.weld);
   progress.advance();
-  mend_connectivity(out, report);
+  mend_connectivity(out, edges, report);
   drop_unused_nodes(out);
   progress.advance();
   throw_if_interrupted();
   const std::size_t united = unite_bodies(out);
-  if (united > 0) mend_connectivity(out, report);
+  if (united > 0) mend_connectivity(out, edges, report);
   report.united_bodies += united;
   progress.advance();
   constexpr int most_rings = 3;
@@ -85,7 +89,7 @@ TriMesh mended(const TriMesh& mesh, Bodies bodies, MendReport& report) {
     MendReport after = report;
     after.cut_triangles = patch_intersections(tried, rings);
     if (after.cut_triangles == 0) break;
-    mend_connectivity(tried, after);
+    mend_connectivity(tried, edges, after);
     drop_unused_nodes(tried);
     if (!find_defects(tried, 1).empty()) continue;
     report = after;
@@ -99,14 +103,19 @@ TriMesh mended(const TriMesh& mesh, Bodies bodies, MendReport& report) {
 }  // namespace
 
 TriMesh mended(const TriMesh& mesh, MendReport& report) {
-  TriMesh out = mended(mesh, Bodies::as_they_are, report);
+  TriMesh out = mended(mesh, Bodies::as_they_are, Edges::as_they_are, report);
   if (find_defects(out, 1).empty()) return out;
   // Nodes of two bodies that coincide tie them together before they are cut by each other.
   MendReport other;
-  TriMesh united = mended(mesh, Bodies::united_first, other);
-  if (other.united_bodies == 0 || !find_defects(united, 1).empty()) return out;
+  TriMesh united = mended(mesh, Bodies::united_first, Edges::as_they_are, other);
+  if (other.united_bodies > 0 && find_defects(united, 1).empty()) {
+    report = other;
+    return united;
+  }
+  TriMesh parted = mended(mesh, Bodies::as_they_are, Edges::parted, other);
+  if (!find_defects(parted, 1).empty()) return out;
   report = other;
-  return united;
+  return parted;
 }
 
 std::string MendReport::text() const {

@@ -1,6 +1,7 @@
 #include "conchoid/remesh/pinches.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -14,6 +15,19 @@
 namespace conchoid {
 namespace {
 
+/// The two triangles on both sides of a wedge of the inside.
+using Wedge = std::array<TriId, 2>;
+
+/// Of an edge, by what lies around it: between two sides lies the inside if both look away from it.
+std::vector<Wedge> wedges_of(const std::vector<EdgeSide>& around) {
+  std::vector<Wedge> wedges;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const EdgeSide &now = around[i], &next = around[(i + 1) % around.size()];
+    if (around.size() > 1 && !now.forward && next.forward) wedges.push_back({now.triangle, next.triangle});
+  }
+  return wedges;
+}
+
 /// Corner k of triangle t is number 3t + k; joined corners belong to one fan.
 class Fans {
  public:
@@ -21,11 +35,8 @@ class Fans {
     for_each_edge(sides_by_edge(mesh), [&](auto begin, auto end) {
       if (end - begin == 2) return join(begin->triangle, (begin + 1)->triangle, begin->edge);
       const std::vector<EdgeSide> around = around_edge(mesh, {begin, end});
-      for (std::size_t i = 0; i < around.size(); ++i) {
-        const EdgeSide &now = around[i], &next = around[(i + 1) % around.size()];
-        // between the two lies the inside if both look away from it
-        if (around.size() > 1 && !now.forward && next.forward) join(now.triangle, next.triangle, now.edge);
-      }
+      for (const Wedge& wedge : wedges_of(around))
+        join(wedge[0], wedge[1], begin->edge);
     });
   }
   std::size_t root(TriId t, std::size_t k) { return corners_.root(3 * t.index() + k); }
@@ -82,6 +93,21 @@ bool holds(const TriMesh& mesh, NodeId node, const Fan& fan, const Fan& other, d
   return inside > outside;
 }
 
+/// Halves the triangles of a wedge at an edge by a node of their own.
+void part_wedge(TriMesh& mesh, const Edge& edge, const Wedge& wedge, std::vector<TriId>& halved) {
+  const Vec3 &a = mesh.positions[edge.a], &b = mesh.positions[edge.b];
+  const Vec3 outward = unit_normal(mesh, wedge[0]) + unit_normal(mesh, wedge[1]);
+  const Vec3 at = 0.5 * (a + b) - pinch_gap * (b - a).norm() * outward.normalized();
+  const NodeId middle = mesh.positions.add(at);
+  for (const TriId t : wedge) {
+    auto other = mesh.corners[t];
+    std::replace(mesh.corners[t].begin(), mesh.corners[t].end(), edge.b, middle);
+    std::replace(other.begin(), other.end(), edge.a, middle);
+    mesh.corners.push_back(other);
+    halved.push_back(t);
+  }
+}
+
 }  // namespace
 
 std::size_t split_pinches(TriMesh& mesh) {
@@ -116,6 +142,35 @@ std::size_t split_pinches(TriMesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k)
           if (before.corners[t][k] == node) mesh.corners[t][k] = copy;
     }
+  }
+  return added;
+}
+
+std::size_t part_edges(TriMesh& mesh, std::vector<TriId>& halved) {
+  constexpr int most_rounds = 3;  // where such edges have a triangle in common
+  std::size_t added = 0;
+  bool again = true;
+  for (int round = 0; round < most_rounds && again; ++round) {
+    again = false;
+    std::vector<std::pair<Edge, std::vector<Wedge>>> edges;
+    std::vector<char> taken(mesh.triangle_count(), 0);
+    for_each_edge(sides_by_edge(mesh), [&](auto begin, auto end) {
+      if (end - begin <= 2) return;
+      std::vector<Wedge> wedges = wedges_of(around_edge(mesh, {begin, end}));
+      if (2 * wedges.size() != static_cast<std::size_t>(end - begin)) return;
+      if (std::any_of(begin, end, [&](const EdgeSide& s) { return taken[s.triangle.index()] != 0; })) {
+        again = true;
+        return;
+      }
+      for (auto side = begin; side != end; ++side)
+        taken[side->triangle.index()] = 1;
+      edges.emplace_back(begin->edge, std::move(wedges));
+    });
+    for (const auto& [edge, wedges] : edges)
+      for (const Wedge& wedge : wedges) {
+        part_wedge(mesh, edge, wedge, halved);
+        ++added;
+      }
   }
   return added;
 }

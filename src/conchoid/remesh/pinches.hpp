@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "conchoid/mesh/tri_mesh.hpp"
 
@@ -15,5 +16,11 @@ inline constexpr double pinch_gap = 1e-4;
 /// touch in it.
 /// @return how many nodes were added
 std::size_t split_pinches(TriMesh& mesh);
+
+/// Likewise at edges with more than two triangles both nodes of which are tips of what opens there, so that no node can be
+/// divided: a node in the middle of the edge for each wedge of the inside, and its two triangles halved.
+/// @param halved  of each triangle that is added, behind the others: the one that it is a half of
+/// @return how many nodes were added
+std::size_t part_edges(TriMesh& mesh, std::vector<TriId>& halved);
 
 }  // namespace conchoid

@@ -42,7 +42,10 @@ constexpr double kCrumb = 1e-9;  // × volume: below what the volumes of pieces 
 // Without its slits, parts of a surface may touch in a node that lay between them. What encloses nothing goes.
 // @param faces  one thing per triangle
 void take_apart(TriMesh& surface, std::vector<TriId>& faces) {
-  if (split_pinches(surface) == 0) return;
+  std::vector<TriId> halved;
+  if (split_pinches(surface) + part_edges(surface, halved) == 0) return;
+  for (const TriId t : halved)
+    faces.push_back(faces[t.index()]);
   std::vector<TriId> kept, kept_faces;
   const double volume = enclosed_volume(surface);
   for (const SurfacePart& part : surface_parts(surface))
