@@ -5,7 +5,6 @@
 #include <set>
 #include <vector>
 
-#include "conchoid/remesh/editable_mesh.hpp"
 #include "conchoid/remesh/tidy.hpp"
 #include "conchoid/remesh/weld.hpp"
 
@@ -40,7 +39,7 @@ class FlatTriangles {
 
   bool is_flat(TriId t) const {
     const auto& c = mesh_.corners[t];
-    return c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && flatness(mesh_.triangle(t)) <= flattest_triangle;
+    return c[0] != c[1] && c[1] != c[2] && c[2] != c[0] && has_no_area(mesh_.triangle(t));
   }
   std::size_t longest(TriId t) const {
     const Triangle x = mesh_.triangle(t);
@@ -113,9 +112,16 @@ class FlatTriangles {
 
 }  // namespace
 
+bool has_no_area(const Triangle& x) {
+  const double longest_squared =
+      std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
+  // Twice the area is longest edge times height.
+  return !(area_vector2(x[0], x[1], x[2]).norm() > flattest_triangle * longest_squared);
+}
+
 bool has_flat_triangle(const TriMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (flatness(mesh.triangle(TriId(t))) <= flattest_triangle) return true;
+    if (has_no_area(mesh.triangle(TriId(t)))) return true;
   return false;
 }
 
@@ -132,7 +138,7 @@ FlatTrianglesRemoved remove_flat_triangles(TriMesh& mesh) {
     removed.welded += weld.nodes;
     removed.flipped += flip_flat_triangles(mesh);
   }
-  drop_unused_nodes(mesh);
+  if (removed.welded > 0) drop_unused_nodes(mesh);
   return removed;
 }
 

@@ -9,11 +9,13 @@ namespace conchoid {
 /// Height over longest edge at which a triangle has no area (validate.hpp).
 inline constexpr double flattest_triangle = 1e-10;
 
+bool has_no_area(const Triangle& triangle);
 bool has_flat_triangle(const TriMesh& mesh);
 
 /// Turns over the longest edges of triangles without area whose third node lies on that edge (T-junctions): the
 /// neighbour there is divided at that node, and no point moves. Longest first; where the edge has no second
-/// triangle, or the new edge is there already, or where two nodes of a triangle coincide, it stays as it is. Returns how many were turned over.
+/// triangle, or the new edge is there already, or where two nodes of a triangle coincide, it stays as it is. Returns
+/// how many were turned over.
 /// @param mesh  triangle ids stay
 std::size_t flip_flat_triangles(TriMesh& mesh);
 

@@ -42,13 +42,13 @@ bool remesh_meets(int target_triangles, std::size_t triangles);
 /// Throws InputError for fewer than 20 triangles asked for and TriangleCountError if the target cannot be met
 /// within 10 %.
 TriMesh remesh(const TriMesh& detailed, int target_triangles, RemeshReport* report = nullptr);
+/// The same with edges that follow the thickness of walls, or limits. Without any of these to obey: the same bits.
+TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettings& settings,
+               RemeshReport* report = nullptr);
 
 /// As about as many triangles as wanted, or as a shape of limbs and folds needs: asks for more in a few steps, as what a shape
 /// allows grows with what it is asked for. Throws TriangleCountError where that does not do or `most` would not.
 TriMesh remesh_or_more(const TriMesh& detailed, int wanted, int most = std::numeric_limits<int>::max());
-/// The same with edges that follow the thickness of walls, or limits. Without any of these to obey: the same bits.
-TriMesh remesh(const TriMesh& detailed, int target_triangles, const RemeshSettings& settings,
-               RemeshReport* report = nullptr);
 
 /// Largest distance of nodes, edge middles and centroids of each mesh from the other [m].
 double sampled_hausdorff_distance(const TriMesh& a, const TriMesh& b);

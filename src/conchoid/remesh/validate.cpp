@@ -185,15 +185,10 @@ void check_nodes(const TriMesh& mesh, Defects& defects) {
 }
 
 void check_shapes(const TriMesh& mesh, Defects& defects) {
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const Triangle x = mesh.triangle(TriId(t));
-    const double longest_squared =
-        std::max({(x[1] - x[0]).squaredNorm(), (x[2] - x[1]).squaredNorm(), (x[0] - x[2]).squaredNorm()});
-    // Twice the area is longest edge times height.
-    if (!(area_vector2(x[0], x[1], x[2]).norm() > flattest_triangle * longest_squared))
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (has_no_area(mesh.triangle(TriId(t))))
       defects.add(DefectKind::degenerate, "triangle " + std::to_string(t) + " has no area",
                   "remove or collapse degenerate triangles", {TriId(t)});
-  }
 }
 
 void check_intersections(const TriMesh& mesh, Defects& defects) {

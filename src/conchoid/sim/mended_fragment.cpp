@@ -46,9 +46,11 @@ std::vector<TriId> nearest_faces(const TriMesh& of, const TriMesh& on) {
   return nearest;
 }
 
-// The triangles around the folds made anew, as few as will do; else all that mending can do. A solid, without triangles that
-// have no area if that can be had.
-std::optional<TriMesh> unfolded(const TriMesh& mesh, bool solid, double most) {
+// The triangles around the folds made anew, as few as will do; else all that mending can do. A solid, without triangles
+// that have no area if that can be had. None where it is fine, or as good as it can be made.
+std::optional<TriMesh> mended_surface(const TriMesh& mesh, double most) {
+  const bool solid = is_solid(mesh);
+  if (solid && !has_flat_triangle(mesh)) return std::nullopt;
   const double volume = enclosed_volume(mesh);
   std::optional<TriMesh> with_flat_triangles;
   const auto is_same = [&](const TriMesh& tried) {
@@ -77,13 +79,6 @@ std::optional<TriMesh> unfolded(const TriMesh& mesh, bool solid, double most) {
   MendReport report;
   TriMesh tried = mended(mesh, report);
   return good(tried) ? std::optional(std::move(tried)) : std::move(with_flat_triangles);
-}
-
-// None where it is fine, or as good as it can be made.
-std::optional<TriMesh> mended_surface(const TriMesh& mesh, double most) {
-  const bool solid = is_solid(mesh);
-  if (solid && !has_flat_triangle(mesh)) return std::nullopt;
-  return unfolded(mesh, solid, most);
 }
 
 // Whether it was changed.

@@ -110,6 +110,12 @@ CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
       });
   });
   list_runs(surface[2]);
+  stand_walls(surface, cracks);
+  list_pairs();
+}
+
+void CellGrid::stand_walls(const std::array<std::vector<std::size_t>, 3>& surface,
+                           const std::array<std::vector<SheetCrossing>, 3>& cracks) {
   // A wall that is the body's surface stands between two cells inside where something thinner than a cell is left out.
   std::array<std::vector<std::int32_t>, 3> walled;
   parallel_for(3, 1, [&](std::size_t axis, std::size_t) {
@@ -130,7 +136,6 @@ CellGrid::CellGrid(const TriMesh& body, const TriMesh& sheets, double size)
   std::sort(crossings_.begin(), crossings_.end(), [](const SheetCrossing& x, const SheetCrossing& y) {
     return std::tie(x.cell, x.axis, x.depth, x.triangle) < std::tie(y.cell, y.axis, y.depth, y.triangle);
   });
-  list_pairs();
 }
 
 std::int32_t CellGrid::number(std::size_t cell) const {

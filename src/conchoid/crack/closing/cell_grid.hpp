@@ -127,6 +127,9 @@ class CellGrid {
   void cross(const TriMesh& mesh, const std::vector<Vec3>& places, int axis, const Found& found) const;
   /// @param surface  cells before the body's surface along the third axis
   void list_runs(const std::vector<std::size_t>& surface);
+  /// @param surface, cracks  what stands before the next cell along each axis
+  void stand_walls(const std::array<std::vector<std::size_t>, 3>& surface,
+                   const std::array<std::vector<SheetCrossing>, 3>& cracks);
   void list_pairs();
 
   double size_;

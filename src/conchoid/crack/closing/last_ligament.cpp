@@ -17,7 +17,7 @@
 namespace conchoid {
 namespace {
 
-constexpr std::size_t kEndsForABound = 500;
+constexpr std::size_t kEndsForABound = 500;  // of a half width
 
 double cell_size(const TriMesh& body, double target_edge) {
   const Box box = bounding_box(body);
@@ -85,24 +85,17 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
   return faces;
 }
 
-// Triangles of the body's surface and the cracks that reach into a box.
-TriMesh walls_within(const Box& box, const TriMesh& body, const TriMesh& sheets) {
-  TriMesh walls;
-  for (const TriMesh* mesh : {&body, &sheets})
-    for (std::size_t t = 0; t < mesh->triangle_count(); ++t) {
-      const Triangle x = mesh->triangle(TriId(t));
-      if (!overlap(box_of(x), box)) continue;
-      const NodeId a = walls.positions.add(x[0]), b = walls.positions.add(x[1]),
-                   c = walls.positions.add(x[2]);
-      walls.corners.push_back({a, b, c});
-    }
-  return walls;
+TriMesh part_within(const Box& box, const TriMesh& mesh) {
+  std::vector<TriId> within;
+  for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value)
+    if (overlap(box_of(mesh.triangle(t)), box)) within.push_back(t);
+  return submesh(mesh, within);
 }
 
 // Largest distance of the broken faces from the walls: few faces, while the walls are many.
 double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const TriMesh& sheets,
                   const std::vector<Edge>& ends) {
-  if (faces.empty() || ends.empty()) return 0;
+  if (faces.empty()) return 0;
   // It is no more than that from some of the cracks' ends.
   const std::size_t stride = ends.size() / kEndsForABound + 1;
   Box box{faces[0], faces[0]};
@@ -117,7 +110,7 @@ double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const Tri
   const double reach = std::sqrt(squared_bound);
   box.low.array() -= reach;
   box.high.array() += reach;
-  const ClosestPointTree tree(walls_within(box, body, sheets));
+  const ClosestPointTree tree(join({part_within(box, body), part_within(box, sheets)}));
   double squared = 0;
   for (const Vec3& x : faces)
     squared = std::max(squared, std::min(tree.closest(x).squared_distance, squared_bound));

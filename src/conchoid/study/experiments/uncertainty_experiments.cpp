@@ -247,11 +247,10 @@ Findings hybrid(Workshop& workshop) {
   f.tables.push_back(std::move(study.table));
   f.plots = std::move(study.plots);
   f.remarks = {
-      "X = inf is the prediction alone, X = 0 the solution; both have the bits of --method network, forest "
-      "or "
-      "kept, and bem. The networks come with the program and are calibrated (forest calibrate), the forest "
-      "is "
-      "the published one and is not. Times are those of one run each, on whatever else the machine did."};
+      "X = inf is the prediction alone, X = 0 the solution; both have the bits of --method network, "
+      "forest or kept, and bem. The networks come with the program and are calibrated (forest calibrate), "
+      "the forest is the published one and is not. Times are those of one run each, on whatever else the "
+      "machine did."};
   return f;
 }
 
