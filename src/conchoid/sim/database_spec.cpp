@@ -8,6 +8,8 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/random.hpp"
+#include "conchoid/learn/regressor.hpp"
+#include "conchoid/learn/shipped.hpp"
 #include "conchoid/sim/scene_parser.hpp"
 #include "conchoid/sim/world_bodies.hpp"
 
@@ -102,6 +104,20 @@ WorldSpec read_world(const TomlTable& table, const std::filesystem::path& folder
   return world;
 }
 
+// A file beside the specification, or what comes with the program.
+void read_leader(const TomlTable& table, const std::filesystem::path& folder, DatabaseSpec& spec) {
+  std::string name;
+  table.read("led_by", name);
+  if (name.empty()) return;
+  const std::filesystem::path beside = folder / name;
+  try {
+    spec.files.push_back(std::filesystem::exists(beside) ? beside : database_file(name, "network"));
+    spec.led_by = load_regressor(spec.files.back());
+  } catch (const InputError& error) {
+    table.fail("led_by", fmt::format("database.led_by: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
@@ -137,6 +153,7 @@ DatabaseSpec parse_database_spec(std::string_view text, const std::string& name,
   table->read("frames", spec.exclusion.frame_limit);
   table->read("many_cracks", spec.exclusion.many_cracks);
   table->read("tiny_growth", spec.exclusion.tiny_growth);
+  read_leader(*table, folder, spec);
   spec.scene.run.frames = spec.exclusion.frame_limit;
   return spec;
 }

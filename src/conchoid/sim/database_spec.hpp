@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "conchoid/sim/world.hpp"
 
 namespace conchoid {
+
+class Regressor;
 
 /// What the runs of a database have in common, and how their loads are drawn: a traction f on one region and
 /// −f on another (or none: then conditions of the scene hold the body), |f| and the direction at random. The direction has the slope α to the pole of a hemisphere
@@ -24,8 +27,10 @@ struct DatabaseSpec {
   std::array<double, 2> slope{0, 90};      ///< α [degree]
   std::array<double, 2> rotation{0, 360};  ///< β [degree]
   ExclusionSettings exclusion;
-  std::optional<WorldSpec> world;            ///< everything is drawn at random; none: as above
-  std::vector<std::filesystem::path> files;  ///< meshes that it names
+  std::optional<WorldSpec> world;  ///< everything is drawn at random; none: as above
+  std::shared_ptr<const Regressor>
+      led_by;  ///< fronts go by its predictions, solved beside; null: by what is solved
+  std::vector<std::filesystem::path> files;  ///< meshes and regressors that it names
 };
 
 /// What a body is called in databases: its model, or the name of its file.

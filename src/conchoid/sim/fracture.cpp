@@ -372,8 +372,9 @@ const std::vector<FrontDecision>& Fracture::decisions() const {
 bool Fracture::solved() const {
   return state_->solved();
 }
-bool Fracture::predicts() const {
-  return state_->predictor != nullptr;
+const std::vector<FrontOpening>* Fracture::truth() const {
+  if (state_->predictor) return state_->predictor->truth();
+  return state_->solved() ? &state_->openings : nullptr;
 }
 const CrackedBody& Fracture::solution() const {
   return state_->bem.body();

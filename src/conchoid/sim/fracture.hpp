@@ -114,8 +114,9 @@ class Fracture {
   const std::vector<FrontDecision>& decisions() const;
   /// Whether these come from a solution, and not from a prediction or from frames before.
   bool solved() const;
-  /// Whether a source other than the boundary elements gives the openings of some frames.
-  bool predicts() const;
+  /// What boundary elements say of the last frame where they give the openings of all frames, or are asked beside those that
+  /// do (LedOpening); null where they could not say.
+  const std::vector<FrontOpening>* truth() const;
   /// The body as it was last solved: displacement, traction, stress.
   const CrackedBody& solution() const;
   /// What fronts were like in the frames before.

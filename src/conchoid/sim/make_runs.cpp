@@ -8,7 +8,10 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/core/stopwatch.hpp"
+#include "conchoid/learn/regressor.hpp"
 #include "conchoid/sim/breakup.hpp"
+#include "conchoid/sim/led_opening.hpp"
+#include "conchoid/sim/predicted_opening.hpp"
 #include "conchoid/sim/recorders.hpp"
 
 namespace conchoid {
@@ -57,12 +60,24 @@ void exclude(RunRecord& record, const std::exception& error) {
   record.excluded = true;
 }
 
+BreakupSettings breakup_settings(const DatabaseSpec& spec, const Scene& scene) {
+  BreakupSettings settings{BreakupSettings::After::chips};
+  if (!spec.led_by) return settings;
+  settings.source = [&spec, &scene](const PreparedBody& body) -> MakeOpeningSource {
+    return [&](BemOpening& bem) {
+      const PredictionContext context{bem, body.material, body, sif_settings(scene.run)};
+      return std::make_unique<LedOpening>(bem, std::make_unique<OpeningByPredictor>(context, *spec.led_by));
+    };
+  };
+  return settings;
+}
+
 RunPart computed(const DatabaseSpec& spec, PreparedRun run) {
   const Stopwatch clock;
   RunPart out{std::move(run.record), {}};
   RunRecord& record = out.record;
   try {
-    Breakup breakup(run.scene, run.body, {BreakupSettings::After::chips});
+    Breakup breakup(run.scene, run.body, breakup_settings(spec, run.scene));
     GrowthRecorder growth;
     SampleRecorder samples(SampleRecorder::Fields::all);
     breakup.add_observer(growth);

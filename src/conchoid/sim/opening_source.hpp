@@ -43,6 +43,9 @@ class OpeningSource {
   /// How far the crack surface so far is expected to lie from the solved one, over the body's diagonal; nothing
   /// where nobody estimates it.
   virtual std::optional<double> expected_error() const { return {}; }
+  /// What boundary elements say of the crack as it stood at the last open(), where the fronts go by something else; null
+  /// where nobody has asked them.
+  virtual const std::vector<FrontOpening>* truth() const { return nullptr; }
   /// The crack goes on by these openings, as open() could not solve.
   virtual void take_carried(const CrackState&, const std::vector<FrontOpening>&) {}
 };

@@ -42,7 +42,8 @@ FrontSurroundings* SampleRecorder::surroundings(const Fracture& fracture) {
 }
 
 void SampleRecorder::on_opening(const Fracture& fracture) {
-  if (!fracture.solved() || fracture.predicts()) return;
+  const std::vector<FrontOpening>* truth = fracture.truth();
+  if (!truth) return;
   const CrackState& crack = fracture.crack();
   FrontSurroundings* around = surroundings(fracture);
   if (around) around->measure(crack, fracture.load(), fracture.loads());
@@ -53,7 +54,7 @@ void SampleRecorder::on_opening(const Fracture& fracture) {
     if (past.nodes.empty() || !(past.own || around)) continue;
     const NodeId old = past.nodes[0];
     auto sample = fracture.history().sample(crack, point, old);
-    const FrontOpening& now = fracture.openings()[i];
+    const FrontOpening& now = (*truth)[i];
     if (!sample || (past.own ? now.opening : now.intensity).isZero(0)) continue;
     const FrontHistory::Entry* before = fracture.history().find(old);
     if (before->seen != crack.sheet.frame - 1) continue;

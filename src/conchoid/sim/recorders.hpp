@@ -33,8 +33,9 @@ class GrowthRecorder : public FractureObserver {
   double largest_ = 0;
 };
 
-/// Training samples of a run by boundary elements: front elements paired over two successive frames, one for each
-/// correlation node: that of the nearest point. Frames that were not solved give none.
+/// Training samples of a run by boundary elements, or of one that is solved beside what leads it (LedOpening): front elements
+/// paired over two successive frames, one for each correlation node: that of the nearest point. Frames that were not solved
+/// give none.
 class SampleRecorder : public FractureObserver {
  public:
   /// What samples hold: all fields, or those alone that cost nothing.

@@ -56,7 +56,7 @@ const std::vector<SettingTable>& setting_tables() {
       {"world", false, false,
        "In place of a scene: body, supports, material, cracks and load of every run are drawn at random, "
        "from "
-       "database.seed. Of [database] it takes runs, seed, frames, many_cracks and tiny_growth."},
+       "database.seed. Of [database] it takes runs, seed, frames, led_by, many_cracks and tiny_growth."},
   };
   return tables;
 }
@@ -484,6 +484,10 @@ const std::vector<Setting>& settings() {
       {"database", "frames", integer, "frames", "31", "most frames per run", between(2, 100000)},
       {"database", "exclude_above", number, "°", "85.0",
        "runs with a larger slope are recorded but not learned from", between(0, 90)},
+      {"database", "led_by", text, "", "",
+       "regressor, by name or file, whose predictions the fronts go by; every frame is solved beside it, and "
+       "what is learned "
+       "from are its own errors"},
       {"database", "many_cracks", integer, "cracks", "3",
        "from so many new cracks on, all of them tiny, a run is not learned from", between(1, 10000)},
       {"database", "tiny_growth", number, "crack edges", "2.0",
