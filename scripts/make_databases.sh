@@ -14,6 +14,18 @@ done
 "$conchoid" database generate databases/world.toml --runs 2452 --out "$work/world.h5" --resume
 "$conchoid" database generate databases/world.toml --runs 11355 --out "$work/world-large.h5" --resume
 
+# Runs that go where networks lead, solved beside them: what these learn from their own errors (docs/prediction.md). The first leader
+# has learned from solved runs alone, the second from its errors, too. led NAME LEADER RUNS SEED
+led() {
+  sed -e "s/^runs = .*/runs = $3/" -e "s/^seed = .*/seed = $4/" -e "s|^frames = .*|&\nled_by = \"$2\"|" databases/world.toml > "$work/$1.toml"
+  "$conchoid" database generate "$work/$1.toml" --out "$work/$1.h5" --resume
+}
+set -- "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
+"$conchoid" forest train "$work/world-large.h5" "$@" --features versatile --model network --out "$work/leader-1.network"
+led world-led-1 leader-1.network 2987 8
+"$conchoid" forest train "$work/world.h5" "$work/world-led-1.h5" "$@" --features versatile --model network --out "$work/leader-2.network"
+led world-led-2 leader-2.network 2233 9
+
 # Runs that none has seen, to find by what the spread of each is worth: NAME RUNS
 unseen() {
   sed -e "s/^runs = .*/runs = $2/" -e 's/^seed = .*/seed = 99/' -e "s|^mesh = \"|&$PWD/databases/|" "databases/$1.toml" > "$work/$1-unseen.toml"
@@ -35,7 +47,7 @@ done
 set -- "$work/cube.h5" "$work/cylinder.h5" "$work/bar.h5"
 "$conchoid" forest train "$work/world.h5" "$@" --features versatile --trees 12 --depth 18 --leaf 10 --out "$work/versatile.forest"
 "$conchoid" forest train "$work/world.h5" "$@" --features versatile --model boosted --trees 300 --depth 6 --rate 0.07 --out "$work/versatile.boosted"
-"$conchoid" forest train "$work/world-large.h5" "$@" --features versatile --model network --out "$work/versatile.network"
+"$conchoid" forest train "$work/world-large.h5" "$work/world-led-1.h5" "$work/world-led-2.h5" "$@" --features versatile --model network --out "$work/versatile.network"
 
 for name in cube cylinder bar edge-crack armadillo versatile; do
   if [ $name = versatile ]; then set -- "$work/world-unseen.h5"; else set -- "$work/$name"*-unseen.h5; fi
