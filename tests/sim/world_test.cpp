@@ -203,7 +203,7 @@ TEST_F(WorldOfScans, ADatabaseIsOfTheScansItWasBegunWith) {
   write_mesh(folder / "statue.ply", other);
   const std::string refused =
       test::refusal([&] { generate_database(parse(text), {.out = folder / "one.h5", .resume = true}); });
-  EXPECT_NE(refused.find("another specification or meshes"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("another specification or files that it names"), std::string::npos) << refused;
 }
 
 TEST_F(WorldOfScans, ScansAndTheirClassGoTogether) {

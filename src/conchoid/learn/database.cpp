@@ -69,7 +69,7 @@ Database merge_databases(const std::vector<std::filesystem::path>& files) {
     } else if (header_text(database.header, false) != header_text(result.header, false)) {
       throw InputError(
           files[f].string() + ": differs from " + files[0].string() +
-          " in specification, meshes, seed, number of runs, model or material; merge only shards of one "
+          " in specification, files that it names, seed, number of runs, model or material; merge only shards of one "
           "specification");
     }
     std::size_t first = 0;

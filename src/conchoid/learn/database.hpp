@@ -19,7 +19,7 @@ struct DatabaseHeader {
   MaterialRecord material;
   double resolution = 0;    ///< r̄ [m]
   std::string spec;         ///< text of the specification, as read
-  std::uint64_t files = 0;  ///< hash of the meshes that it names; 0: none
+  std::uint64_t files = 0;  ///< hash of the meshes and regressors that it names; 0: none
   std::uint64_t seed = 0;
   std::int32_t planned_runs = 0;       ///< of the whole database: ids 0 … planned_runs − 1
   std::int32_t shard = 1, shards = 1;  ///< this file is to hold the runs with id ≡ shard − 1 modulo shards

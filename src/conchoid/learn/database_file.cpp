@@ -2,7 +2,7 @@
 // HDF5, which HDF5 programs find by themselves behind such a block. The hash is checked before anything is
 // handed to the HDF5 library, so a damaged file cannot lead it astray.
 //   attributes of /: format, version, material, resolution, seed, planned_runs, shard, shards, complete,
-//   and files where the specification names meshes;
+//   and files where the specification names meshes or a regressor;
 //   /models, /spec: text /runs/<column>: one entry per run;  /samples/run, frame, node, front, <field>: one entry
 //   per sample, with its unit as attribute
 #include <algorithm>

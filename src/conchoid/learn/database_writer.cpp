@@ -111,7 +111,7 @@ void DatabaseWriter::State::open_folder(bool resume) {
   else if (read_bytes(folder / "header.json") != text)
     throw InputError(
         folder.string() +
-        ": was started with another specification or meshes, number of runs, seed or shard; use the same "
+        ": was started with another specification or files that it names, number of runs, seed or shard; use the same "
         "ones, or remove the "
         "folder to start anew");
 }
@@ -121,7 +121,7 @@ void DatabaseWriter::State::read_file() {
   const Database old = read_database(file);
   if (old.header != header)
     throw InputError(file.string() +
-                     ": was generated with another specification or meshes, number of runs, seed or shard; "
+                     ": was generated with another specification or files that it names, number of runs, seed or shard; "
                      "use the same ones, "
                      "or remove the file to start anew");
   std::size_t first = 0;
