@@ -109,21 +109,22 @@ void DatabaseWriter::State::open_folder(bool resume) {
   if (!fs::exists(folder / "header.json"))
     write_bytes(folder / "header.json", text);
   else if (read_bytes(folder / "header.json") != text)
-    throw InputError(
-        folder.string() +
-        ": was started with another specification or files that it names, number of runs, seed or shard; use the same "
-        "ones, or remove the "
-        "folder to start anew");
+    throw InputError(folder.string() +
+                     ": was started with another specification or files that it names, number of runs, seed "
+                     "or shard; use the same "
+                     "ones, or remove the "
+                     "folder to start anew");
 }
 
 void DatabaseWriter::State::read_file() {
   if (!fs::exists(file)) return;
   const Database old = read_database(file);
   if (old.header != header)
-    throw InputError(file.string() +
-                     ": was generated with another specification or files that it names, number of runs, seed or shard; "
-                     "use the same ones, "
-                     "or remove the file to start anew");
+    throw InputError(
+        file.string() +
+        ": was generated with another specification or files that it names, number of runs, seed or shard; "
+        "use the same ones, "
+        "or remove the file to start anew");
   std::size_t first = 0;
   for (const RunRecord& run : old.runs) {
     std::vector<std::size_t> indices(run.samples);

@@ -27,9 +27,8 @@ struct DatabaseSpec {
   std::array<double, 2> slope{0, 90};      ///< α [degree]
   std::array<double, 2> rotation{0, 360};  ///< β [degree]
   ExclusionSettings exclusion;
-  std::optional<WorldSpec> world;  ///< everything is drawn at random; none: as above
-  std::shared_ptr<const Regressor>
-      led_by;  ///< fronts go by its predictions, solved beside; null: by what is solved
+  std::optional<WorldSpec> world;            ///< everything is drawn at random; none: as above
+  std::shared_ptr<const Regressor> led_by;   ///< leads the fronts (LedOpening); null: nothing does
   std::vector<std::filesystem::path> files;  ///< meshes and regressors that it names
 };
 

@@ -8,10 +8,9 @@
 #include "conchoid/core/interrupt.hpp"
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/core/stopwatch.hpp"
-#include "conchoid/learn/regressor.hpp"
 #include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/led_opening.hpp"
-#include "conchoid/sim/predicted_opening.hpp"
+#include "conchoid/sim/methods.hpp"
 #include "conchoid/sim/recorders.hpp"
 
 namespace conchoid {
@@ -63,11 +62,10 @@ void exclude(RunRecord& record, const std::exception& error) {
 BreakupSettings breakup_settings(const DatabaseSpec& spec, const Scene& scene) {
   BreakupSettings settings{BreakupSettings::After::chips};
   if (!spec.led_by) return settings;
-  settings.source = [&spec, &scene](const PreparedBody& body) -> MakeOpeningSource {
-    return [&](BemOpening& bem) {
-      const PredictionContext context{bem, body.material, body, sif_settings(scene.run)};
-      return std::make_unique<LedOpening>(bem, std::make_unique<OpeningByPredictor>(context, *spec.led_by));
-    };
+  settings.source = [leaders = sources_by(opening_method(spec.led_by->name()), scene.run, spec.led_by.get())](
+                        const PreparedBody& body) -> MakeOpeningSource {
+    return
+        [leader = leaders(body)](BemOpening& bem) { return std::make_unique<LedOpening>(bem, leader(bem)); };
   };
   return settings;
 }

@@ -132,4 +132,14 @@ const OpeningMethod& checked_method(std::string_view name, const Regressor* regr
   return method;
 }
 
+OpeningSourceFor sources_by(const OpeningMethod& method, const RunSpec& run, const Regressor* regressor,
+                            int solve_every, const std::optional<double>& tolerance) {
+  return [&method, regressor, solve_every, tolerance,
+          sif = sif_settings(run)](const PreparedBody& body) -> MakeOpeningSource {
+    return [&method, regressor, solve_every, tolerance, sif, &body](BemOpening& bem) {
+      return method.make({{bem, body.material, body, sif, solve_every, tolerance}, regressor});
+    };
+  };
+}
+
 }  // namespace conchoid

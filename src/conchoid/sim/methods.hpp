@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "conchoid/learn/regressor.hpp"
+#include "conchoid/sim/breakup.hpp"
 #include "conchoid/sim/predicted_opening.hpp"
 
 namespace conchoid {
@@ -51,5 +52,11 @@ std::vector<const OpeningPredictor*> baseline_predictors();
 /// negative.
 const OpeningMethod& checked_method(std::string_view name, const Regressor* regressor,
                                     const std::optional<double>& tolerance = {});
+
+/// What makes the source of the opening of a run by a method, for its body and for the pieces that this breaks into.
+/// @param method, regressor  must outlive the run; the latter null where the method needs none
+/// @param solve_every, tolerance  as in PredictionContext
+OpeningSourceFor sources_by(const OpeningMethod& method, const RunSpec& run, const Regressor* regressor,
+                            int solve_every = 0, const std::optional<double>& tolerance = {});
 
 }  // namespace conchoid

@@ -166,13 +166,8 @@ void add_load(const LoadReport& load, const RunSpec& run, RunDocument& doc) {
 BreakupSettings breakup_settings(const Scene& scene, const RunOptions& options, const OpeningMethod& method) {
   BreakupSettings settings;
   if (!options.fragments) settings.after = BreakupSettings::After::stop;
-  settings.source = [&scene, &options, &method](const PreparedBody& body) -> MakeOpeningSource {
-    return [&](BemOpening& bem) {
-      return method.make(
-          {{bem, body.material, body, sif_settings(scene.run), scene.run.solve_every, options.tolerance},
-           options.regressor});
-    };
-  };
+  settings.source =
+      sources_by(method, scene.run, options.regressor, scene.run.solve_every, options.tolerance);
   return settings;
 }
 

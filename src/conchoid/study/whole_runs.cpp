@@ -37,12 +37,7 @@ class OpeningClock : public FractureObserver {
 Outcome outcome_of(const PreparedRun& run, const RunMethod& how, int frames) {
   const OpeningMethod& method = checked_method(how.method, how.regressor, how.tolerance);
   BreakupSettings settings{BreakupSettings::After::stop};
-  settings.source = [&](const PreparedBody& body) -> MakeOpeningSource {
-    return [&](BemOpening& bem) {
-      return method.make(
-          {{bem, body.material, body, sif_settings(run.scene.run), 0, how.tolerance}, how.regressor});
-    };
-  };
+  settings.source = sources_by(method, run.scene.run, how.regressor, 0, how.tolerance);
   Breakup breakup(run.scene, run.body, settings);
   OpeningClock clock;
   breakup.add_observer(clock);
