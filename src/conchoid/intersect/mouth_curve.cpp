@@ -17,9 +17,16 @@ namespace {
 
 constexpr std::size_t kOfTask = 256;  // elements looked at by one task
 
-PerturbedTriangle corners_of(const TriMesh& mesh, const std::vector<PerturbedPoint>& points, TriId t) {
-  const Corners& c = mesh.corners[t];
-  return {&points[c[0].index()], &points[c[1].index()], &points[c[2].index()]};
+using NearPair = std::pair<TriId, TriId>;
+
+// Of one triangle of each pair.
+std::vector<NodeId> nodes_near(const TriMesh& mesh, const std::vector<NearPair>& near,
+                               TriId NearPair::*triangle) {
+  std::vector<NodeId> nodes;
+  nodes.reserve(3 * near.size());
+  for (const NearPair& pair : near)
+    nodes.insert(nodes.end(), mesh.corners[pair.*triangle].begin(), mesh.corners[pair.*triangle].end());
+  return nodes;
 }
 
 // On which sides of the other's plane its corners lie.
@@ -43,26 +50,26 @@ bool MouthCurve::Segment::has_step(const Edge& e) const {
 }
 
 MouthCurve::MouthCurve(const TriMesh& surface, const TriMesh& sheet)
+    : MouthCurve(surface, sheet, overlapping_boxes(surface, sheet)) {}
+
+MouthCurve::MouthCurve(const TriMesh& surface, const TriMesh& sheet, const NearTriangles& near)
     : surface_(surface),
       sheet_(sheet),
-      surface_points_(perturbed_points(surface, Role::surface, 0)),
-      sheet_points_(perturbed_points(sheet, Role::sheet, static_cast<std::uint32_t>(surface.node_count()))) {
-  find_segments();
+      surface_points_(surface, Role::surface, 0, nodes_near(surface, near, &NearPair::first)),
+      sheet_points_(sheet, Role::sheet, static_cast<std::uint32_t>(surface.node_count()),
+                    nodes_near(sheet, near, &NearPair::second)) {
+  find_segments(near);
   make_nodes();
   join_crossings(Kind::surface_edge);
   join_crossings(Kind::sheet_edge);
 }
 
-PerturbedTriangle MouthCurve::surface_triangle(TriId t) const {
-  return corners_of(surface_, surface_points_, t);
+const std::vector<std::size_t>& MouthCurve::SegmentsOfTriangles::operator[](TriId t) const {
+  return segments[static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), t) -
+                                           triangles.begin())];
 }
 
-PerturbedTriangle MouthCurve::sheet_triangle(TriId s) const {
-  return corners_of(sheet_, sheet_points_, s);
-}
-
-void MouthCurve::find_segments() {
-  const auto near = overlapping_boxes(surface_, sheet_);
+void MouthCurve::find_segments(const NearTriangles& near) {
   const auto found = parallel_values(near.size(), kOfTask,
                                      [&](std::size_t i) { return intersect(near[i].first, near[i].second); });
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -106,7 +113,7 @@ PerturbedTriangle MouthCurve::edge_triangle(const MouthNode& at) const {
   return at.kind == Kind::sheet_edge ? surface_triangle(at.triangle) : sheet_triangle(at.triangle);
 }
 
-const std::vector<PerturbedPoint>& MouthCurve::edge_points(const MouthNode& at) const {
+const PerturbedPoints& MouthCurve::edge_points(const MouthNode& at) const {
   return at.kind == Kind::sheet_edge ? sheet_points_ : surface_points_;
 }
 
@@ -122,8 +129,7 @@ void MouthCurve::make_nodes() {
   positions_.insert(positions_.end(), sheet_.positions.begin(), sheet_.positions.end());
   const auto ends = [&](const MouthNode& at) {
     const auto& points = edge_points(at);
-    return std::pair<const PerturbedPoint&, const PerturbedPoint&>(points[at.edge.a.index()],
-                                                                   points[at.edge.b.index()]);
+    return std::pair<const PerturbedPoint&, const PerturbedPoint&>(points[at.edge.a], points[at.edge.b]);
   };
   crossings_ = parallel_values(nodes_.size(), kOfTask, [&](std::size_t k) {
     const auto [p, q] = ends(nodes_[k]);
@@ -167,8 +173,8 @@ bool MouthCurve::before(std::size_t i, std::size_t j) const {
                right = crossings_[j].to_p * crossings_[i].to_q;
   if (std::abs(left - right) > 1e-13 * std::max(left, right)) return left < right;
   const auto& points = edge_points(nodes_[i]);
-  return crosses_before(points[nodes_[i].edge.a.index()], points[nodes_[i].edge.b.index()],
-                        edge_triangle(nodes_[i]), edge_triangle(nodes_[j]));
+  return crosses_before(points[nodes_[i].edge.a], points[nodes_[i].edge.b], edge_triangle(nodes_[i]),
+                        edge_triangle(nodes_[j]));
 }
 
 std::vector<NodeId> MouthCurve::nodes_on_edge(Kind kind, NodeId from, NodeId to) const {
@@ -224,31 +230,42 @@ int MouthCurve::turn(Kind kind, TriId t, NodeId before, NodeId at, NodeId after)
   const auto apex = std::find_if(c.begin(), c.end(), [&](NodeId n) { return n != edge.a && n != edge.b; });
   const NodeId end =
       c[static_cast<std::size_t>(apex - c.begin() + 2) % 3];  // of the edge as `from` runs through it
-  const PerturbedTriangle F = corners_of(mesh, points, from);
+  const PerturbedTriangle F = points.triangle(c);
   PerturbedTriangle X = of_surface ? surface_triangle(t) : sheet_triangle(t);
   std::sort(X.begin(), X.end(), [](const auto* x, const auto* y) { return x->id < y->id; });
   // seen from X's normal, the side of `from` its normal points away from lies left of the curve if `end`
   // lies above X
-  const bool back_is_left = orientation(*X[0], *X[1], *X[2], points[end.index()]) > 0;
-  const bool goes_back = orientation(*F[0], *F[1], *F[2], points[opposite->index()]) < 0;
+  const bool back_is_left = orientation(*X[0], *X[1], *X[2], points[end]) > 0;
+  const bool goes_back = orientation(*F[0], *F[1], *F[2], points[*opposite]) < 0;
   return back_is_left == goes_back ? 1 : -1;
 }
 
 // A sheet that passes through itself draws mouth curves that cross; they get a common node there. A segment
 // lies in one triangle of the kind alone, so that all are looked at before any is joined.
 void MouthCurve::join_crossings(Kind kind) {
-  auto& lists = kind == Kind::surface_edge ? on_surface_ : on_sheet_;
-  lists.resize(mesh_of(kind).triangle_count());
-  for (std::size_t i = 0; i < segments_.size(); ++i)
-    lists[kind == Kind::surface_edge ? segments_[i].surface : segments_[i].sheet].push_back(i);
-  const auto crossings = parallel_values(lists.size(), kOfTask, [&](std::size_t t) {
-    return lists[TriId(t)].size() < 2 ? std::vector<CrossingSegments>()
-                                      : crossing_segments(positions_, triangle_cut(kind, TriId(t)));
+  auto& [triangles, lists] = kind == Kind::surface_edge ? on_surface_ : on_sheet_;
+  const auto triangle_of = [&](std::size_t i) {
+    return kind == Kind::surface_edge ? segments_[i].surface : segments_[i].sheet;
+  };
+  std::vector<std::size_t> by_triangle(segments_.size());
+  std::iota(by_triangle.begin(), by_triangle.end(), 0);
+  std::stable_sort(by_triangle.begin(), by_triangle.end(),
+                   [&](std::size_t i, std::size_t j) { return triangle_of(i) < triangle_of(j); });
+  for (const std::size_t i : by_triangle) {
+    if (triangles.empty() || triangles.back() != triangle_of(i)) {
+      triangles.push_back(triangle_of(i));
+      lists.emplace_back();
+    }
+    lists.back().push_back(i);
+  }
+  const auto crossings = parallel_values(lists.size(), kOfTask, [&](std::size_t k) {
+    return lists[k].size() < 2 ? std::vector<CrossingSegments>()
+                               : crossing_segments(positions_, triangle_cut(kind, triangles[k]));
   });
-  for (std::size_t t = 0; t < lists.size(); ++t)
-    for (const CrossingSegments& c : crossings[t]) {
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    for (const CrossingSegments& c : crossings[k]) {
       const auto with = [&](const Edge& e) -> Segment& {
-        return segments_[*std::find_if(lists[TriId(t)].begin(), lists[TriId(t)].end(),
+        return segments_[*std::find_if(lists[k].begin(), lists[k].end(),
                                        [&](std::size_t i) { return segments_[i].has_step(e); })];
       };
       join(with(c.first), with(c.second));

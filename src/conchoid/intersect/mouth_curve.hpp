@@ -33,9 +33,10 @@ class MouthCurve {
   MouthCurve(const TriMesh& surface, const TriMesh& sheet);
 
   const TriMesh& mesh_of(Kind kind) const { return kind == Kind::surface_edge ? surface_ : sheet_; }
-  PerturbedTriangle surface_triangle(TriId t) const;
-  PerturbedTriangle sheet_triangle(TriId s) const;
-  const PerturbedPoint& sheet_point(NodeId n) const { return sheet_points_[n.index()]; }
+  /// Only of what lies near the other mesh, as all triangles at its nodes do.
+  PerturbedTriangle surface_triangle(TriId t) const { return surface_points_.triangle(surface_.corners[t]); }
+  PerturbedTriangle sheet_triangle(TriId s) const { return sheet_points_.triangle(sheet_.corners[s]); }
+  const PerturbedPoint& sheet_point(NodeId n) const { return sheet_points_[n]; }
 
   const IdVector<NodeId, Vec3>& positions() const { return positions_; }
   /// All nodes but crossings, ascending.
@@ -43,8 +44,8 @@ class MouthCurve {
   /// The number of a node of the mouth; past the last one, of the first crossing.
   NodeId node(std::size_t i) const { return NodeId(surface_.node_count() + sheet_.node_count() + i); }
 
-  /// Whether a curve runs through a triangle.
-  bool cuts(Kind kind, TriId t) const { return !segments_in(kind)[t].empty(); }
+  /// The triangles through which a curve runs, ascending.
+  const std::vector<TriId>& cut_triangles(Kind kind) const { return segments_in(kind).triangles; }
   /// What cuts one triangle. Edges of the surface are cut by the sheet (kind surface_edge) and the other way
   /// round.
   TriangleCut triangle_cut(Kind kind, TriId t) const;
@@ -63,9 +64,17 @@ class MouthCurve {
     bool has_step(const Edge& e) const;
   };
   struct Intersection;
-  using SegmentsOfTriangles = IdVector<TriId, std::vector<std::size_t>>;
+  using NearTriangles =
+      std::vector<std::pair<TriId, TriId>>;  ///< of surface and sheet, boxes of which overlap
+  /// Of the triangles that have some.
+  struct SegmentsOfTriangles {
+    std::vector<TriId> triangles;                    ///< ascending
+    std::vector<std::vector<std::size_t>> segments;  ///< of each of these
+    const std::vector<std::size_t>& operator[](TriId t) const;
+  };
 
-  void find_segments();
+  MouthCurve(const TriMesh& surface, const TriMesh& sheet, const NearTriangles& near);
+  void find_segments(const NearTriangles& near);
   Intersection intersect(TriId t, TriId s) const;
   void make_nodes();
   void order_along_edges();
@@ -77,14 +86,14 @@ class MouthCurve {
     return kind == Kind::surface_edge ? on_surface_ : on_sheet_;
   }
   PerturbedTriangle edge_triangle(const MouthNode& at) const;
-  const std::vector<PerturbedPoint>& edge_points(const MouthNode& at) const;
+  const PerturbedPoints& edge_points(const MouthNode& at) const;
   std::size_t index_of(const MouthNode& at) const;
   std::vector<NodeId> nodes_on_edge(Kind kind, NodeId from, NodeId to) const;
   int turn(Kind kind, TriId t, NodeId before, NodeId at, NodeId after) const;
 
   const TriMesh& surface_;
   const TriMesh& sheet_;
-  std::vector<PerturbedPoint> surface_points_, sheet_points_;
+  PerturbedPoints surface_points_, sheet_points_;  ///< of what is near
   std::vector<Segment> segments_;
   std::vector<MouthNode> nodes_;
   std::vector<Crossing> crossings_;  ///< per node

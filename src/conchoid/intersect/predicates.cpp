@@ -184,72 +184,79 @@ PerturbedTriangle sorted(PerturbedTriangle t) {
   return t;
 }
 
-/// Unit normal; the same bits, up to the map, for a reflected mesh. Zero without area.
-Vec3 exact_mirror_normal(const TriMesh& mesh, TriId t, double& area) {
+/// A triangle at a node.
+struct Face {
+  Vec3 normal;  ///< of length 1, zero without area; the same bits, up to the map, for a reflected mesh
+  double area;
+};
+
+Face face(const TriMesh& mesh, TriId t) {
   const auto& corners = mesh.corners[t];
   auto c = corners;
   std::sort(c.begin(), c.end());
   const bool even = corners[1] == c[(std::find(c.begin(), c.end(), corners[0]) - c.begin() + 1) % 3];
   const Vec3 n = area_vector2(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]);
-  area = n.norm();
-  return area > 0 ? Vec3((even ? 1 : -1) / area * n) : Vec3(Vec3::Zero());
+  const double area = n.norm();
+  return {area > 0 ? Vec3((even ? 1 : -1) / area * n) : Vec3(Vec3::Zero()), area};
 }
-
-/// Unit normals and areas of a mesh's triangles.
-struct Faces {
-  IdVector<TriId, Vec3> normals;
-  IdVector<TriId, double> areas;
-
-  explicit Faces(const TriMesh& mesh) : normals(mesh.triangle_count()), areas(mesh.triangle_count()) {
-    constexpr std::size_t of_task = 4096;
-    parallel_for(mesh.triangle_count(), of_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t)
-        normals[TriId(t)] = exact_mirror_normal(mesh, TriId(t), areas[TriId(t)]);
-    });
-  }
-};
 
 /// A direction on the outer side of all triangles of a star, where there is one: a surface that shrinks
 /// against it opens even where two parts of it lie on each other, as the two faces of a crack do. Elsewhere (a
 /// crack front) the sum of the normals. `star` loses the slivers.
-Vec3 seen_by_all(const Faces& faces, std::vector<TriId>& star) {
+Vec3 seen_by_all(std::vector<Face>& star) {
   constexpr double sliver = 1e-8, clearance = 0.05;
   constexpr int most_steps = 100;
   double largest = 0;
-  for (const TriId t : star)
-    largest = std::max(largest, faces.areas[t]);
-  std::erase_if(star, [&](TriId t) { return !(faces.areas[t] > sliver * largest); });
+  for (const Face& face : star)
+    largest = std::max(largest, face.area);
+  std::erase_if(star, [&](const Face& face) { return !(face.area > sliver * largest); });
   Vec3 sum = Vec3::Zero();
-  for (const TriId t : star)
-    sum += faces.normals[t];
-  const auto hidden = [&](const Vec3& direction, TriId t) {
-    return !(direction.dot(faces.normals[t]) > clearance * direction.norm());
+  for (const Face& face : star)
+    sum += face.normal;
+  const auto hidden = [&](const Vec3& direction, const Face& face) {
+    return !(direction.dot(face.normal) > clearance * direction.norm());
   };
-  if (std::none_of(star.begin(), star.end(), [&](TriId t) { return hidden(sum, t); })) return sum;
+  if (std::none_of(star.begin(), star.end(), [&](const Face& face) { return hidden(sum, face); })) return sum;
   Vec3 direction = sum;
   for (int step = 0; step < most_steps; ++step) {
-    const auto worst = std::min_element(star.begin(), star.end(), [&](TriId s, TriId t) {
-      return direction.dot(faces.normals[s]) < direction.dot(faces.normals[t]);
+    const auto worst = std::min_element(star.begin(), star.end(), [&](const Face& s, const Face& t) {
+      return direction.dot(s.normal) < direction.dot(t.normal);
     });
     if (!hidden(direction, *worst)) return direction;
-    direction += faces.normals[*worst];
+    direction += worst->normal;
   }
   return sum;
 }
 
 }  // namespace
 
-std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std::uint32_t first_id) {
-  constexpr std::size_t nodes_of_task = 2048;
-  const Faces faces(mesh);
-  const NodeLists<TriId> stars = triangles_at_nodes(mesh);
-  std::vector<PerturbedPoint> points(mesh.node_count());
-  const auto place = [&](NodeId n, std::vector<TriId>& star) {
-    PerturbedPoint& p = points[n.index()];
+PerturbedPoints::PerturbedPoints(const TriMesh& mesh, Role role, std::uint32_t first_id,
+                                 const std::vector<NodeId>& nodes)
+    : number_(mesh.node_count(), -1) {
+  constexpr std::size_t points_of_task = 512;
+  std::vector<NodeId> node;  // of each point
+  for (const NodeId n : nodes)
+    if (number_[n] < 0) {
+      number_[n] = static_cast<std::int32_t>(node.size());
+      node.push_back(n);
+    }
+  const auto has_point = [&](NodeId n) { return number_[n] >= 0; };
+  std::vector<TriId> around;  // these nodes
+  for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value)
+    if (std::any_of(mesh.corners[t].begin(), mesh.corners[t].end(), has_point)) around.push_back(t);
+  const NodeLists<TriId> stars(node.size(), [&](const auto& put) {
+    for (const TriId t : around)
+      for (const NodeId n : mesh.corners[t])
+        if (has_point(n)) put(NodeId(number_[n]), t);
+  });
+  points_ = parallel_values(node.size(), points_of_task, [&](std::size_t i) {
+    const NodeId n = node[i];
+    PerturbedPoint p;
     p.x = mesh.positions[n];
     p.exponent = role == Role::sheet ? 1 : 4;
     p.id = first_id + n.value;
-    for (const TriId t : star) {
+    std::vector<Face> star;
+    for (const TriId t : stars[NodeId(i)]) {
       auto c = mesh.corners[t];
       std::sort(c.begin(), c.end());
       for (const NodeId other : c) {
@@ -257,19 +264,12 @@ std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std
         const auto key = (std::uint64_t(p.id) << 32) | (first_id + other.value);
         p.across += static_cast<double>(mix(key) >> 54) * (mesh.positions[other] - p.x);
       }
+      star.push_back(face(mesh, t));
     }
-    const Vec3 out = seen_by_all(faces, star);
+    const Vec3 out = seen_by_all(star);
     p.along = role == Role::surface ? Vec3(-out) : out;
-  };
-  parallel_for(points.size(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<TriId> star;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto around = stars[NodeId(i)];
-      star.assign(around.begin(), around.end());
-      place(NodeId(i), star);
-    }
+    return p;
   });
-  return points;
 }
 
 int orientation(const PerturbedPoint& a, const PerturbedPoint& b, const PerturbedPoint& c,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -31,8 +32,24 @@ using PerturbedTriangle = std::array<const PerturbedPoint*, 3>;
 
 enum class Role { surface, sheet };
 
-/// The nodes of a mesh with their displacements; ids count from `first_id` (different for both meshes).
-std::vector<PerturbedPoint> perturbed_points(const TriMesh& mesh, Role role, std::uint32_t first_id);
+/// Some nodes of a mesh with their displacements.
+class PerturbedPoints {
+ public:
+  /// @param first_id  ids count from it (different for both meshes)
+  /// @param nodes     which; they may be named again
+  PerturbedPoints(const TriMesh& mesh, Role role, std::uint32_t first_id, const std::vector<NodeId>& nodes);
+
+  /// Of one of these.
+  const PerturbedPoint& operator[](NodeId n) const { return points_[static_cast<std::size_t>(number_[n])]; }
+  /// All corners have to be among these.
+  PerturbedTriangle triangle(const Corners& c) const {
+    return {&(*this)[c[0]], &(*this)[c[1]], &(*this)[c[2]]};
+  }
+
+ private:
+  IdVector<NodeId, std::int32_t> number_;  ///< among the points; −1: none
+  std::vector<PerturbedPoint> points_;
+};
 
 /// Sign of (b−a)×(c−a)·(d−a) for ε → 0: +1 if d lies on the side of triangle abc from which it is seen
 /// counter-clockwise. Exact; never 0 for points of different ids.
