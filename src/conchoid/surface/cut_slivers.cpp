@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/mesh/corners.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
 namespace {
@@ -21,6 +24,7 @@ struct Piece {
   TriId parent;
   bool sheet = false;
   bool alive = true;
+  std::int8_t badness = 0;  ///< 0: no sliver
 };
 
 /// How many pieces meet at an edge.
@@ -35,26 +39,102 @@ struct Shape {
   int apex = 0;  ///< corner opposite the longest edge
 };
 
+Shape shape(const Triangle& t) {
+  Shape s;
+  for (int k = 0; k < 3; ++k)
+    if (const double length = (t[(k + 1) % 3] - t[(k + 2) % 3]).norm(); length > s.longest) {
+      s.longest = length;
+      s.apex = k;
+    }
+  if (s.longest > 0) s.height = area_vector2(t[0], t[1], t[2]).norm() / s.longest;
+  return s;
+}
+
+Triangle triangle(const CutComplex& cut, const Corners& c) {
+  return {cut.positions[c[0]], cut.positions[c[1]], cut.positions[c[2]]};
+}
+
+bool own(const CutComplex& cut, NodeId n) {
+  return n.index() < cut.surface_node_count;
+}
+
+/// Every step has to lessen the sum of this. Narrow triangles of the input are none of ours.
+std::int8_t badness(const CutComplex& cut, const Piece& p, double smallest) {
+  if (!p.sheet && std::all_of(p.corners.begin(), p.corners.end(), [&](NodeId n) { return own(cut, n); }))
+    return 0;
+  const double height = shape(triangle(cut, p.corners)).height;
+  return height >= smallest ? 0 : height >= 0.1 * smallest ? 1 : height >= 1e-3 * smallest ? 10 : 100;
+}
+
+std::vector<Piece> pieces_of(const CutComplex& cut, double smallest) {
+  constexpr std::size_t of_task = 4096;
+  const std::size_t of_surface = cut.surface.size();
+  return parallel_values(of_surface + cut.sheet.size(), of_task, [&](std::size_t i) {
+    Piece p = i < of_surface
+                  ? Piece{cut.surface[TriId(i)], cut.surface_parent[i], false}
+                  : Piece{cut.sheet[TriId(i - of_surface)], cut.sheet_parent[i - of_surface], true};
+    p.badness = badness(cut, p, smallest);
+    return p;
+  });
+}
+
+/// The pieces around each node, in a list that can be changed from when it is first asked for: most nodes are far from any
+/// sliver.
+class Stars {
+ public:
+  Stars(std::size_t node_count, const std::vector<Piece>& pieces)
+      : at_first_(node_count,
+                  [&](const auto& put) {
+                    for (PieceId p = 0; p < pieces.size(); ++p)
+                      for (const NodeId n : pieces[p].corners)
+                        put(n, static_cast<std::uint32_t>(p));
+                  }),
+        number_(node_count, -1) {}
+
+  /// Ascending.
+  std::vector<PieceId>& operator[](NodeId n) {
+    if (number_[n] < 0) {
+      number_[n] = static_cast<std::int32_t>(lists_.size());
+      const auto star = at_first_[n];
+      lists_.emplace_back(star.begin(), star.end());
+    }
+    return lists_[static_cast<std::size_t>(number_[n])];
+  }
+  void add_node() {
+    number_.push_back(static_cast<std::int32_t>(lists_.size()));
+    lists_.emplace_back();
+  }
+  /// Nodes that have been added are none any more.
+  void keep_nodes(std::size_t node_count) { number_.resize(node_count); }
+
+ private:
+  NodeLists<std::uint32_t> at_first_;
+  IdVector<NodeId, std::int32_t> number_;  ///< of the node's list; −1: none yet
+  std::deque<std::vector<PieceId>> lists_;
+};
+
 /// The complex as it changes. Steps are written down, so that they can be taken back.
 class SliverRemoval {
  public:
-  SliverRemoval(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet, double smallest)
-      : cut_(cut), surface_(surface), sheet_(sheet), smallest_(smallest), stars_(cut.positions.size()) {
-    reserve();
-    for (std::size_t t = 0; t < cut.surface.size(); ++t)
-      add({cut.surface[TriId(t)], cut.surface_parent[t], false});
-    for (std::size_t t = 0; t < cut.sheet.size(); ++t)
-      add({cut.sheet[TriId(t)], cut.sheet_parent[t], true});
-    commit();
+  /// @param pieces  of the complex
+  SliverRemoval(CutComplex& cut, std::vector<Piece> pieces, const TriMesh& surface, const TriMesh& sheet,
+                double smallest)
+      : cut_(cut),
+        surface_(surface),
+        sheet_(sheet),
+        smallest_(smallest),
+        pieces_(std::move(pieces)),
+        stars_(cut.positions.size(), pieces_) {
+    for (const Piece& p : pieces_)
+      badness_ += p.badness;
   }
 
   void run() {
-    bool changed = badness_ > 0;
-    while (changed) {
+    for (bool changed = true; changed;) {
       changed = false;
       throw_if_interrupted();
       for (PieceId p = 0; p < pieces_.size(); ++p)
-        if (pieces_[p].alive && is_sliver(pieces_[p])) {
+        if (pieces_[p].alive && pieces_[p].badness > 0) {
           throw_if_interrupted();
           changed = remove(p) || changed;
         }
@@ -63,58 +143,25 @@ class SliverRemoval {
   }
 
  private:
-  void reserve() {
-    IdVector<NodeId, std::size_t> pieces(cut_.positions.size(), 0);
-    for (const auto* triangles : {&cut_.surface, &cut_.sheet})
-      for (const Corners& c : *triangles)
-        for (const NodeId n : c)
-          ++pieces[n];
-    for (std::size_t n = 0; n < pieces.size(); ++n)
-      stars_[NodeId(n)].reserve(pieces[NodeId(n)]);
-    pieces_.reserve(cut_.surface.size() + cut_.sheet.size());
-  }
-
   /// Zero: a sliver itself.
   Vec3 reliable_normal(const TriMesh& mesh, TriId t) const {
     return shape(mesh.triangle(t)).height < 1e-3 * smallest_ ? Vec3(Vec3::Zero()) : unit_normal(mesh, t);
   }
 
-  static Shape shape(const Triangle& t) {
-    Shape s;
-    for (int k = 0; k < 3; ++k)
-      if (const double length = (t[(k + 1) % 3] - t[(k + 2) % 3]).norm(); length > s.longest) {
-        s.longest = length;
-        s.apex = k;
-      }
-    if (s.longest > 0) s.height = area_vector2(t[0], t[1], t[2]).norm() / s.longest;
-    return s;
-  }
-  Triangle triangle(const Corners& c) const {
-    return {cut_.positions[c[0]], cut_.positions[c[1]], cut_.positions[c[2]]};
-  }
-
-  bool own(NodeId n) const { return n.index() < cut_.surface_node_count; }
-  bool is_sliver(const Piece& p) const { return badness(p) > 0; }
-  /// 0: no sliver. Every step has to lessen the sum of this. Narrow triangles of the input are none of ours.
-  int badness(const Piece& p) const {
-    if (!p.sheet && own(p.corners[0]) && own(p.corners[1]) && own(p.corners[2])) return 0;
-    const double height = shape(triangle(p.corners)).height;
-    return height >= smallest_ ? 0 : height >= 0.1 * smallest_ ? 1 : height >= 1e-3 * smallest_ ? 10 : 100;
-  }
-
   // Steps, and taking them back.
 
-  void add(const Piece& p) {
+  void add(Piece p) {
     for (const NodeId n : p.corners)
       stars_[n].push_back(pieces_.size());
     added_.push_back(pieces_.size());
+    p.badness = badness(cut_, p, smallest_);
+    badness_ += p.badness;
     pieces_.push_back(p);
-    badness_ += badness(p);
   }
   void unlink(PieceId p) {
     for (const NodeId n : pieces_[p].corners)
       std::erase(stars_[n], p);
-    badness_ -= badness(pieces_[p]);
+    badness_ -= pieces_[p].badness;
   }
   void kill(PieceId p) {
     unlink(p);
@@ -138,17 +185,17 @@ class SliverRemoval {
         auto& star = stars_[n];
         star.insert(std::lower_bound(star.begin(), star.end(), p), p);
       }
-      badness_ += badness(pieces_[p]);
+      badness_ += pieces_[p].badness;
     }
     cut_.positions.resize(node_count);
     cut_.sheet_node.resize(node_count);
-    stars_.resize(node_count);
+    stars_.keep_nodes(node_count);
     commit();
   }
 
   // What lies where.
 
-  std::vector<NodeId> neighbours(NodeId n) const {
+  std::vector<NodeId> neighbours(NodeId n) {
     std::vector<NodeId> out;
     for (const PieceId p : stars_[n])
       for (const NodeId m : pieces_[p].corners)
@@ -157,20 +204,20 @@ class SliverRemoval {
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
   }
-  std::vector<PieceId> pieces_at(NodeId a, NodeId b) const {
+  std::vector<PieceId> pieces_at(NodeId a, NodeId b) {
     std::vector<PieceId> out;
     for (const PieceId p : stars_[a])
       if (has(pieces_[p].corners, b)) out.push_back(p);
     return out;
   }
-  EdgeUse use(NodeId a, NodeId b) const {
+  EdgeUse use(NodeId a, NodeId b) {
     EdgeUse u;
     for (const PieceId p : pieces_at(a, b))
       ++(pieces_[p].sheet ? u.sheet : u.surface);
     return u;
   }
   /// Triangles of the input surface the node lies in.
-  std::vector<TriId> support(NodeId n) const {
+  std::vector<TriId> support(NodeId n) {
     std::vector<TriId> out;
     for (const PieceId p : stars_[n])
       if (!pieces_[p].sheet) out.push_back(pieces_[p].parent);
@@ -184,7 +231,7 @@ class SliverRemoval {
     std::size_t edges = 0;
     bool junction = false;
   };
-  Line line(NodeId n) const {
+  Line line(NodeId n) {
     Line l;
     std::optional<EdgeUse> first;
     for (const NodeId m : neighbours(n)) {
@@ -199,7 +246,7 @@ class SliverRemoval {
   }
 
   /// Whether drawing a and b together leaves all connections as they are.
-  bool keeps_connections(NodeId a, NodeId b) const {
+  bool keeps_connections(NodeId a, NodeId b) {
     std::vector<NodeId> opposite;
     for (const PieceId p : pieces_at(a, b))
       for (const NodeId n : pieces_[p].corners)
@@ -219,7 +266,7 @@ class SliverRemoval {
     return std::none_of(common.begin(), common.end(),
                         [&](NodeId x) { return use(a, x).special() && use(b, x).special(); });
   }
-  bool shares_link_edge(NodeId a, NodeId b) const {
+  bool shares_link_edge(NodeId a, NodeId b) {
     const auto link = [&](NodeId n, NodeId without) {
       std::set<Edge> edges;
       for (const PieceId p : stars_[n]) {
@@ -238,7 +285,7 @@ class SliverRemoval {
   /// Whether a piece faces as the triangle it is a part of, as far as that can be told.
   bool upright(const Piece& p) const {
     const Vec3 n = reliable_normal(p.sheet ? sheet_ : surface_, p.parent);
-    const Triangle t = triangle(p.corners);
+    const Triangle t = triangle(cut_, p.corners);
     if (n.isZero(0)) return true;
     const Vec3 area = area_vector2(t[0], t[1], t[2]);
     const Shape s = shape(t);
@@ -249,7 +296,7 @@ class SliverRemoval {
   }
 
   /// Whether a node stays in its triangles of the surface where the other one is.
-  bool may_move(NodeId from, NodeId to) const {
+  bool may_move(NodeId from, NodeId to) {
     constexpr double rounded = 1e-3;  // of the smallest height
     if ((cut_.positions[from] - cut_.positions[to]).norm() <= rounded * smallest_) return true;
     const std::vector<TriId> here = support(from), there = support(to);
@@ -258,7 +305,7 @@ class SliverRemoval {
 
   /// Draws `removed` into `kept`. False: not allowed, nothing done.
   bool collapse(NodeId removed, NodeId kept) {
-    if (own(removed) || !may_move(removed, kept) || !keeps_connections(removed, kept)) return false;
+    if (own(cut_, removed) || !may_move(removed, kept) || !keeps_connections(removed, kept)) return false;
     std::vector<Piece> moved;
     for (const PieceId p : stars_[removed]) {
       if (has(pieces_[p].corners, kept)) continue;
@@ -279,7 +326,7 @@ class SliverRemoval {
     const std::vector<PieceId> around = pieces_at(a, b);
     const NodeId middle = cut_.positions.add(at);
     cut_.sheet_node.emplace_back();
-    stars_.emplace_back();
+    stars_.add_node();
     for (const PieceId p : around) {
       const Piece whole = pieces_[p];
       kill(p);
@@ -323,7 +370,7 @@ class SliverRemoval {
   /// The corner opposite the longest edge goes into that edge, or the edge to the corner.
   bool draw_in(PieceId p) {
     const Corners c = pieces_[p].corners;
-    const int k = shape(triangle(c)).apex;
+    const int k = shape(triangle(cut_, c)).apex;
     const NodeId apex = c[k], a = c[(k + 1) % 3], b = c[(k + 2) % 3];
     const Vec3 from = cut_.positions[std::min(a, b)], along = cut_.positions[std::max(a, b)] - from;
     if (!(along.squaredNorm() > 0)) return false;
@@ -362,7 +409,7 @@ class SliverRemoval {
   const TriMesh &surface_, &sheet_;
   double smallest_;
   std::vector<Piece> pieces_;
-  IdVector<NodeId, std::vector<PieceId>> stars_;
+  Stars stars_;
   std::vector<PieceId> added_, killed_;
   std::int64_t badness_ = 0;                      ///< of all pieces
   std::vector<std::pair<NodeId, NodeId>> drawn_;  ///< since the last commit: removed, kept
@@ -371,7 +418,9 @@ class SliverRemoval {
 }  // namespace
 
 void remove_slivers(CutComplex& cut, const TriMesh& surface, const TriMesh& sheet, double smallest) {
-  SliverRemoval(cut, surface, sheet, smallest).run();
+  std::vector<Piece> pieces = pieces_of(cut, smallest);
+  if (std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return p.badness > 0; }))
+    SliverRemoval(cut, std::move(pieces), surface, sheet, smallest).run();
 }
 
 }  // namespace conchoid
