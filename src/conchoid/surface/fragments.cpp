@@ -8,9 +8,11 @@
 
 #include "conchoid/core/error.hpp"
 #include "conchoid/core/interrupt.hpp"
+#include "conchoid/core/parallel.hpp"
 #include "conchoid/core/progress.hpp"
 #include "conchoid/intersect/corefine.hpp"
 #include "conchoid/intersect/sheet_inside.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/surface/cut_slivers.hpp"
 #include "conchoid/surface/mass_properties.hpp"
 #include "conchoid/surface/separation.hpp"
@@ -92,15 +94,15 @@ std::vector<Piece> separate(const CutComplex& cut, const Shells& shells, const P
         node_of[shells.vertex[f][k]] = shells.corners[f][k];
         solid_of[shells.vertex[f][k]] = shells.solid[f];
       }
-  std::vector<std::size_t> order(shells.vertex_count);
-  for (std::size_t v = 0; v < order.size(); ++v)
-    order[v] = v;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t x, std::size_t y) { return node_of[x] < node_of[y]; });
+  const NodeLists<std::uint32_t> vertices(cut.positions.size(), [&](const auto& put) {
+    for (std::size_t v = 0; v < node_of.size(); ++v)
+      put(node_of[v], static_cast<std::uint32_t>(v));
+  });
   std::vector<Piece> pieces(shells.volume.size());
   std::vector<NodeId> local(shells.vertex_count);
-  for (const std::size_t v : order)
-    local[v] = pieces[solid_of[v]].mesh.positions.add(cut.positions[node_of[v]]);
+  for (NodeId n(0); n.index() < vertices.size(); ++n.value)
+    for (const std::uint32_t v : vertices[n])
+      local[v] = pieces[solid_of[v]].mesh.positions.add(cut.positions[n]);
   for (std::size_t f = 0; f < shells.corners.size(); ++f) {
     if (!shells.present[f]) continue;
     Piece& piece = pieces[shells.solid[f]];
@@ -199,9 +201,8 @@ std::vector<Piece> cut_piece(const Piece& piece, const TriMesh& sheet, SheetCut 
   return fallback;
 }
 
-void weigh(Fragment& fragment, double density) {
+void set_mass(Fragment& fragment, double density) {
   const MassProperties m = mass_properties(fragment.mesh, density);
-  fragment.watertight = is_watertight(fragment.mesh);
   fragment.volume = m.volume;
   fragment.mass = m.mass;
   fragment.center_of_mass = m.center_of_mass;
@@ -229,8 +230,13 @@ std::vector<Fragment> as_fragments(std::vector<Piece> pieces, const FragmentSett
   }
   fragments = joined_small_fragments(
       std::move(fragments), {settings.minimum_volume_fraction * body_volume, settings.maximum_count});
-  for (Fragment& fragment : fragments)
-    weigh(fragment, settings.density);
+  parallel_for(2 * fragments.size(), 1, [&](std::size_t task, std::size_t) {
+    Fragment& fragment = fragments[task / 2];
+    if (task % 2 == 0)
+      fragment.watertight = is_watertight(fragment.mesh);
+    else
+      set_mass(fragment, settings.density);
+  });
   // largest first; pieces equal up to round-off keep their order
   const auto size = [&](const Fragment& f) { return std::llround(1e9 * f.volume / body_volume); };
   std::stable_sort(fragments.begin(), fragments.end(),

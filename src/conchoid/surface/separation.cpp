@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <string>
 
 #include "conchoid/core/error.hpp"
-#include "conchoid/core/union_find.hpp"
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/mesh/sort_by_edge.hpp"
 
 namespace conchoid {
@@ -18,11 +20,14 @@ using HalfEdge = Gluer::HalfEdge;
 
 class Gluing {
  public:
-  Gluing(const CutComplex& cut, std::span<const HalfEdge> halves, const std::vector<bool>& left_out)
+  Gluing(const CutComplex& cut, std::span<const HalfEdge> halves, std::span<const std::uint32_t> corner_of,
+         std::size_t corner_count, UnionFind faces, const std::vector<bool>& left_out)
       : cut_(cut),
         halves_(halves),
-        corners_(3 * (cut.surface.size() + 2 * cut.sheet.size())),
-        faces_(cut.surface.size() + 2 * cut.sheet.size()) {
+        corner_of_(corner_of),
+        corner_count_(corner_count),
+        corners_(corner_count),
+        faces_(std::move(faces)) {
     collect_faces(left_out);
   }
 
@@ -100,20 +105,21 @@ class Gluing {
 
   void glue(const HalfEdge& x, const HalfEdge& y) {
     faces_.join(x.face, y.face);
-    const std::size_t of_x = 3 * std::size_t{x.face}, of_y = 3 * std::size_t{y.face};
-    corners_.join(of_x + x.corner, of_y + (y.corner + 1) % 3);
-    corners_.join(of_x + (x.corner + 1) % 3, of_y + y.corner);
+    corners_.join(corner(x.face, x.corner), corner(y.face, (y.corner + 1u) % 3));
+    corners_.join(corner(x.face, (x.corner + 1u) % 3), corner(y.face, y.corner));
   }
+
+  std::size_t corner(std::size_t face, std::size_t k) const { return corner_of_[3 * face + k]; }
 
   void number_vertices() {
     const std::size_t n = shells_.corners.size();
-    std::vector<std::int32_t> id(3 * n, -1);
+    std::vector<std::int32_t> id(corner_count_, -1);
     shells_.vertex.assign(n, {-1, -1, -1});
     std::int32_t count = 0;
     for (std::size_t f = 0; f < n; ++f) {
       if (!shells_.present[f]) continue;
       for (std::size_t k = 0; k < 3; ++k) {
-        auto& v = id[corners_.root(3 * f + k)];
+        auto& v = id[corners_.root(corner(f, k))];
         if (v < 0) v = count++;
         shells_.vertex[f][k] = v;
       }
@@ -146,8 +152,9 @@ class Gluing {
     double body = 0;
     for (std::size_t f = 0; f < n; ++f)
       if (shell[f] >= 0) {
-        volume[shell[f]] += six_volume(f, origin) / 6;
-        if (f < shells_.surface_faces) body += six_volume(f, origin) / 6;
+        const double part = six_volume(f, origin) / 6;
+        volume[shell[f]] += part;
+        if (f < shells_.surface_faces) body += part;
       }
     // Shells of negative volume are cavities; those without volume are cracks in the inside, unless their
     // other sides belong to another shell: then they are pieces, though empty.
@@ -209,26 +216,92 @@ class Gluing {
 
   const CutComplex& cut_;
   std::span<const HalfEdge> halves_;
+  std::span<const std::uint32_t> corner_of_;  // see Gluer
+  std::size_t corner_count_;
   UnionFind corners_, faces_;
   Shells shells_;
 };
 
+/// Whether the triangles at a node make one fan around it, edge by edge.
+bool is_one_fan(const CutComplex& cut, NodeId n, std::span<const TriId> star) {
+  const auto corner_after = [&](TriId t, std::size_t steps) {
+    const auto& c = cut.surface[t];
+    return c[(static_cast<std::size_t>(std::find(c.begin(), c.end(), n) - c.begin()) + steps) % 3];
+  };
+  if (star.empty()) return false;
+  TriId at = star[0];
+  for (std::size_t step = 0; step < star.size(); ++step) {
+    if (step > 0 && at == star[0]) return false;  // round already
+    TriId next;
+    for (const TriId t : star)
+      if (corner_after(t, 1) == corner_after(at, 2)) {
+        if (next.valid()) return false;
+        next = t;
+      }
+    if (!next.valid()) return false;
+    at = next;
+  }
+  return at == star[0];
+}
+
+/// Per node of the complex whether the sheet does not touch it and the surface makes one fan around it.
+std::vector<char> whole_nodes(const CutComplex& cut) {
+  constexpr std::size_t nodes_of_task = 2048;
+  const NodeLists<TriId> stars(cut.positions.size(), [&](const auto& put) {
+    for (std::size_t t = 0; t < cut.surface.size(); ++t)
+      for (const NodeId n : cut.surface[TriId(t)])
+        put(n, TriId(t));
+  });
+  std::vector<char> whole(cut.positions.size(), 1);
+  for (const auto& c : cut.sheet)
+    for (const NodeId n : c)
+      whole[n.index()] = 0;
+  parallel_for(whole.size(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      whole[n] = whole[n] && is_one_fan(cut, NodeId(n), stars[NodeId(n)]);
+  });
+  return whole;
+}
+
 }  // namespace
 
-Gluer::Gluer(const CutComplex& cut) : cut_(cut) {
-  halves_.reserve(3 * (cut.surface.size() + cut.sheet.size()));
-  std::uint32_t face = 0;
-  for (const auto* pieces : {&cut.surface, &cut.sheet})
-    for (const auto& c : *pieces) {
-      for (std::uint16_t k = 0; k < 3; ++k)
-        halves_.push_back({Edge(c[k], c[(k + 1) % 3]), face, k, c[k] < c[(k + 1) % 3]});
-      ++face;
+Gluer::Gluer(const CutComplex& cut) : cut_(cut), faces_(cut.surface.size() + 2 * cut.sheet.size()) {
+  const std::vector<char> whole = whole_nodes(cut);
+  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> corner_at(whole.size(), none), face_at(whole.size());  // whole nodes
+  corners_.reserve(3 * (cut.surface.size() + 2 * cut.sheet.size()));
+  std::uint32_t corners = 0, face = 0;
+  for (const auto& c : cut.surface) {
+    for (std::uint16_t k = 0; k < 3; ++k) {
+      const NodeId n = c[k], next = c[(k + 1u) % 3];
+      if (!whole[n.index()] || !whole[next.index()]) halves_.push_back({Edge(n, next), face, k, n < next});
+      if (!whole[n.index()]) {
+        corners_.push_back(corners++);
+        continue;
+      }
+      if (corner_at[n.index()] == none) {
+        corner_at[n.index()] = corners++;
+        face_at[n.index()] = face;
+      }
+      corners_.push_back(corner_at[n.index()]);
+      faces_.join(face_at[n.index()], face);
     }
+    ++face;
+  }
+  halves_.reserve(halves_.size() + 3 * cut.sheet.size());
+  for (const auto& c : cut.sheet) {
+    for (std::uint16_t k = 0; k < 3; ++k)
+      halves_.push_back({Edge(c[k], c[(k + 1u) % 3]), face, k, c[k] < c[(k + 1u) % 3]});
+    ++face;
+  }
+  for (std::size_t k = 0; k < 6 * cut.sheet.size(); ++k)  // both sides
+    corners_.push_back(corners++);
+  corner_count_ = corners;
   sort_by_edge(halves_, cut.positions.size(), [](const HalfEdge& h) { return h.edge; });  // then by face
 }
 
 Shells Gluer::glue(const std::vector<bool>& left_out) const {
-  return Gluing(cut_, halves_, left_out).run();
+  return Gluing(cut_, halves_, corners_, corner_count_, faces_, left_out).run();
 }
 
 std::size_t count_pieces(const CutComplex& cut) {

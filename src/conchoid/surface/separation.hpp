@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "conchoid/core/union_find.hpp"
 #include "conchoid/intersect/corefine.hpp"
 
 namespace conchoid {
@@ -32,7 +33,8 @@ struct Shells {
   }
 };
 
-/// Glues the complex, which has to outlive it, as often as wanted: what lies along each edge is found once.
+/// Glues the complex, which has to outlive it, as often as wanted: what hangs together anyway, around nodes off the sheet,
+/// and what lies along each of the other edges is found once.
 class Gluer {
  public:
   explicit Gluer(const CutComplex& cut);
@@ -56,7 +58,12 @@ class Gluer {
 
  private:
   const CutComplex& cut_;
-  std::vector<HalfEdge> halves_;  ///< of surface and sheet pieces, by edge, then by face
+  std::vector<std::uint32_t>
+      corners_;  ///< three of each face, sheet pieces turned round among them: numbered, as one
+                 ///< at a node that is whole: off the sheet, with one fan of triangles around it
+  std::size_t corner_count_ = 0;
+  UnionFind faces_;               ///< joined at nodes that are whole
+  std::vector<HalfEdge> halves_;  ///< of edges with another node, by edge, then by face
 };
 
 inline Shells glue(const CutComplex& cut) {
