@@ -1,23 +1,48 @@
 #include "conchoid/mesh/place.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <vector>
+
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
 
+namespace {
+
+// Places that are equal have the same one; −0 is 0.
+std::size_t hash_of(const Vec3& x) {
+  constexpr std::size_t factor = 0x9E3779B97F4A7C15;  // 2⁶⁴ over the golden ratio
+  std::size_t hash = 0;
+  for (const double value : x)
+    hash = (hash ^ std::hash<double>{}(value)) * factor;
+  return hash >> 32;
+}
+
+}  // namespace
+
 IdVector<NodeId, NodeId> first_at_place(const TriMesh& mesh) {
-  std::vector<NodeId> order(mesh.node_count());
-  for (std::size_t n = 0; n < order.size(); ++n)
-    order[n] = NodeId(n);
-  std::sort(order.begin(), order.end(), [&](NodeId m, NodeId n) {
-    const Place a = place(mesh.positions[m]), b = place(mesh.positions[n]);
-    return a != b ? a < b : m < n;
+  constexpr std::size_t nodes_of_task = 4096;
+  const std::size_t n = mesh.node_count();
+  const std::vector<std::uint32_t> bucket = parallel_values(n, nodes_of_task, [&](std::size_t i) {
+    return static_cast<std::uint32_t>(hash_of(mesh.positions[NodeId(i)]) % n);
   });
-  IdVector<NodeId, NodeId> first(mesh.node_count());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool again = i > 0 && place(mesh.positions[order[i]]) == place(mesh.positions[order[i - 1]]);
-    first[order[i]] = again ? first[order[i - 1]] : order[i];
-  }
+  const IdLists<NodeId, NodeId> nodes(n, [&](const auto& put) {  // of each bucket, ascending
+    for (std::size_t i = 0; i < n; ++i)
+      put(NodeId(std::size_t{bucket[i]}), NodeId(i));
+  });
+  IdVector<NodeId, NodeId> first(n);
+  parallel_for(n, nodes_of_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Place here = place(mesh.positions[NodeId(i)]);
+      const auto among = nodes[NodeId(std::size_t{bucket[i]})];
+      first[NodeId(i)] = *std::find_if(among.begin(), among.end(), [&](NodeId m) {
+        return m.index() == i || place(mesh.positions[m]) == here;
+      });
+    }
+  });
   return first;
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
+#include "conchoid/core/parallel.hpp"
+#include "conchoid/mesh/id_lists.hpp"
 #include "conchoid/mesh/place.hpp"
 
 namespace conchoid {
@@ -14,25 +15,27 @@ SharedPlaces::SharedPlaces(const TriMesh& mesh) : first(first_at_place(mesh)), s
 }
 
 std::vector<std::vector<std::size_t>> opposite_faces(const Fragment& f, const SharedPlaces& places) {
-  std::vector<std::pair<std::array<NodeId, 3>, std::size_t>> at;
-  for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t) {
-    if (f.face_kind[t] != FaceKind::fracture) continue;
+  constexpr std::size_t faces_of_task = 4096;
+  const auto places_of = [&](std::size_t t) {
     std::array<NodeId, 3> key = f.mesh.corners[TriId(t)];
     for (NodeId& n : key)
       n = places.first[n];
     std::sort(key.begin(), key.end());
-    at.emplace_back(key, t);
-  }
-  std::sort(at.begin(), at.end());
-  std::vector<std::vector<std::size_t>> opposite(f.mesh.triangle_count());
-  for (std::size_t begin = 0, end = 0; begin < at.size(); begin = end) {
-    while (end < at.size() && at[end].first == at[begin].first)
-      ++end;
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = begin; k < end; ++k)
-        if (k != i) opposite[at[i].second].push_back(at[k].second);
-  }
-  return opposite;
+    return key;
+  };
+  const auto is_cut = [&](std::size_t t) { return f.face_kind[t] == FaceKind::fracture; };
+  const NodeLists<std::size_t> at_first(f.mesh.node_count(), [&](const auto& put) {
+    for (std::size_t t = 0; t < f.mesh.triangle_count(); ++t)
+      if (is_cut(t)) put(places_of(t)[0], t);
+  });
+  return parallel_values(f.mesh.triangle_count(), faces_of_task, [&](std::size_t t) {
+    std::vector<std::size_t> opposite;
+    if (!is_cut(t)) return opposite;
+    const auto key = places_of(t);
+    for (const std::size_t other : at_first[key[0]])
+      if (other != t && places_of(other) == key) opposite.push_back(other);
+    return opposite;
+  });
 }
 
 void keep_solid(Fragment& f) {
