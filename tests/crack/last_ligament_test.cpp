@@ -175,6 +175,30 @@ TEST(LastLigament, SpecksOfTheGridAreNone) {
   EXPECT_TRUE(find_last_ligaments(unit_cube(), waves(0.03), kEdge).empty());
 }
 
+// Islands of a few cells each beside a body, as a grid makes them of what is thin, are not parted from it by a crack that they
+// do not touch, whichever side is up.
+TEST(LastLigament, IslandsOfTheGridArePartOfWhatIsMost) {
+  TriMesh body = unit_cube();
+  constexpr int islands = 300;
+  for (int i = 0; i < islands; ++i) {
+    TriMesh island = box_mesh(Vec3::Constant(0.045), 1, 1, 1);
+    for (Vec3& x : island.positions)
+      x += Vec3(0.6 + 0.09 * (i / 100), -0.45 + 0.09 * (i % 10), -0.45 + 0.09 * (i / 10 % 10));
+    body = both(body, island);
+  }
+  EXPECT_TRUE(find_last_ligaments(body, plane_sheet(-0.6, -0.2, 0.0), kEdge).empty());
+  TriMesh low = plane_sheet(-0.6, 0.38, -0.443);
+  for (const bool flipped : {false, true}) {
+    if (flipped)
+      for (auto& c : low.corners)
+        std::swap(c[1], c[2]);
+    const auto found = find_last_ligaments(body, low, kEdge);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].smaller_part, 0.057, 0.006);
+    EXPECT_FALSE(found[0].faces.empty());
+  }
+}
+
 TEST(LastLigament, TurnsAndMovesWithTheBody) {
   const auto reference = find_last_ligaments(unit_cube(), plane_sheet(-0.6, 0.38, 0.013), kEdge);
   ASSERT_EQ(reference.size(), 1u);

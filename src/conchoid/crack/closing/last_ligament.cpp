@@ -56,18 +56,42 @@ std::vector<std::uint8_t> cells_near_fronts(const CellGrid& grid, const TriMesh&
   return band;
 }
 
-// Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side: nothing
-// would come off there.
+// Cells of a side that hang together, over walls too, but are too few for a part, go over to the other side where it is
+// beside them: nothing would come off there. Where nothing is beside them, they go with most of the body.
 void remove_specks(const CellGrid& grid, std::vector<std::int8_t>& side) {
   const CellSets sets =
       sets_of_cells(grid, [&](std::size_t i, int, std::size_t next) { return side[i] == side[next]; });
-  std::vector<int> cells(static_cast<std::size_t>(sets.count), 0);
+  struct Set {
+    std::int32_t cells = 0;
+    std::int8_t side = 0;
+    bool alone = true;
+    bool is_speck() const { return cells < kFewestCells; }
+  };
+  std::vector<Set> of(static_cast<std::size_t>(sets.count));
+  for (const CellSets::Chain& chain : sets.chains) {
+    Set& set = of[static_cast<std::size_t>(chain.set)];
+    set.cells += chain.size();
+    set.side = side[static_cast<std::size_t>(chain.first)];
+  }
+  if (std::none_of(of.begin(), of.end(), [](const Set& set) { return set.is_speck(); })) return;
+  const auto part = [&](std::size_t cell) -> Set& {
+    return of[static_cast<std::size_t>(sets.of_cell[cell])];
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (const CellPairs& pairs : grid.pairs(axis))
+      for (std::int32_t k = 0; k < pairs.count; ++k) {
+        const auto i = static_cast<std::size_t>(pairs.number + k),
+                   n = static_cast<std::size_t>(pairs.ahead + k);
+        if (side[i] != side[n]) part(i).alone = part(n).alone = false;
+      }
+  std::ptrdiff_t more_above = 0;
+  for (const Set& set : of)
+    if (!set.is_speck()) more_above += set.side > 0 ? set.cells : -set.cells;
+  for (Set& set : of)
+    if (set.is_speck()) set.side = static_cast<std::int8_t>(!set.alone ? -set.side : more_above > 0 ? 1 : -1);
   for (const CellSets::Chain& chain : sets.chains)
-    cells[static_cast<std::size_t>(chain.set)] += chain.size();
-  for (const CellSets::Chain& chain : sets.chains)
-    if (cells[static_cast<std::size_t>(chain.set)] < kFewestCells)
-      for (std::int32_t i = chain.first; i < chain.end; ++i)
-        side[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(-side[static_cast<std::size_t>(i)]);
+    if (const Set& set = of[static_cast<std::size_t>(chain.set)]; set.is_speck())
+      std::fill(side.begin() + chain.first, side.begin() + chain.end, set.side);
 }
 
 // In the order of their cells.
@@ -122,13 +146,9 @@ std::optional<LastLigament> ligament_of(std::shared_ptr<const CellGrid> grid, Ce
                                         const TriMesh& body, const TriMesh& sheets,
                                         const std::vector<Edge>& ends,
                                         const std::vector<std::uint8_t>& band) {
-  const auto smaller_side = [&] {
-    const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
-    return std::min(upper, static_cast<std::ptrdiff_t>(partition.side.size()) - upper);
-  };
-  if (smaller_side() == 0) return std::nullopt;  // nothing is worth breaking
   remove_specks(*grid, partition.side);
-  const std::ptrdiff_t smaller = smaller_side();
+  const std::ptrdiff_t upper = std::count(partition.side.begin(), partition.side.end(), 1);
+  const std::ptrdiff_t smaller = std::min(upper, static_cast<std::ptrdiff_t>(partition.side.size()) - upper);
   if (smaller < kFewestCells) return std::nullopt;
   LastLigament out;
   out.grid = std::move(grid);
