@@ -162,6 +162,13 @@ std::vector<BoundaryLoop> boundary_loops(const TriMesh& mesh) {
   return loops;
 }
 
+TriMesh part_within(const Box& box, const TriMesh& mesh) {
+  std::vector<TriId> within;
+  for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value)
+    if (overlap(box_of(mesh.triangle(t)), box)) within.push_back(t);
+  return submesh(mesh, within);
+}
+
 TriMesh join(const std::vector<TriMesh>& meshes) {
   TriMesh all;
   for (const TriMesh& mesh : meshes) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "conchoid/mesh/box.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -26,6 +27,9 @@ std::vector<TriMesh> split_parts(const TriMesh& mesh);
 
 /// Some triangles as a mesh of their own; nodes in the order in which they come up.
 TriMesh submesh(const TriMesh& mesh, const std::vector<TriId>& triangles);
+
+/// The triangles whose boxes meet a box (touching counts), as a mesh of their own, in their order.
+TriMesh part_within(const Box& box, const TriMesh& mesh);
 
 /// Meshes as one, side by side: nodes and triangles in their order.
 TriMesh join(const std::vector<TriMesh>& meshes);

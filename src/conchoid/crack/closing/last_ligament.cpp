@@ -109,13 +109,6 @@ std::vector<Vec3> broken_faces(const CellGrid& grid, const CellPartition& partit
   return faces;
 }
 
-TriMesh part_within(const Box& box, const TriMesh& mesh) {
-  std::vector<TriId> within;
-  for (TriId t(0); t.index() < mesh.triangle_count(); ++t.value)
-    if (overlap(box_of(mesh.triangle(t)), box)) within.push_back(t);
-  return submesh(mesh, within);
-}
-
 // Largest distance of the broken faces from the walls: few faces, while the walls are many.
 double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const TriMesh& sheets,
                   const std::vector<Edge>& ends) {

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "conchoid/crack/closing/minimal_cut.hpp"
-#include "conchoid/mesh/box_tree.hpp"
 
 namespace conchoid {
 
@@ -69,7 +68,6 @@ class LigamentSurfaces {
  private:
   const LastLigament& ligament_;
   const TriMesh& sheets_;
-  BoxTree tree_;
   std::vector<std::int8_t> side_;  ///< per cell, also of those around the body
 };
 

@@ -11,6 +11,7 @@
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
+#include "conchoid/mesh/surface_parts.hpp"
 
 namespace conchoid {
 namespace {
@@ -99,9 +100,8 @@ std::vector<std::int8_t> spread_outside(const CellGrid& grid, const std::vector<
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const BoxTree& tree,
-               const std::vector<std::int8_t>& side)
-      : grid_(*ligament.grid), ligament_(ligament), sheets_(sheets), tree_(tree), side_(side) {}
+  SurfaceMaker(const LastLigament& ligament, const TriMesh& sheets, const std::vector<std::int8_t>& side)
+      : grid_(*ligament.grid), ligament_(ligament), sheets_(sheets), side_(side) {}
 
   TriMesh over_ends(const LigamentOverlap& overlap) {
     near_.assign(grid_.cells(), false);
@@ -117,6 +117,7 @@ class SurfaceMaker {
     for (const Edge& e : boundary_edges(sheets_))
       mark_near(0.5 * (sheets_.positions[e.a] + sheets_.positions[e.b]));
     march();
+    find_cracks();
     place(overlap.offset);
     smooth(kSmoothingRounds);
     return std::move(mesh_);
@@ -125,6 +126,7 @@ class SurfaceMaker {
   TriMesh everywhere(const DividingSurface& how) {
     near_.assign(grid_.cells(), true);
     march();
+    find_cracks();
     place(0);
     smooth(how.smoothing);
     if (how.halved) halve();
@@ -190,6 +192,16 @@ class SurfaceMaker {
     }
   }
 
+  // Near the surface: it is little of what the sheets are, as a rule.
+  void find_cracks() {
+    Box box = bounding_box(mesh_);
+    const double reach = 2 * grid_.size();
+    box.low.array() -= reach;
+    box.high.array() += reach;
+    cracks_ = part_within(box, sheets_);
+    tree_.emplace(cracks_);
+  }
+
   // Nodes between cells that a crack parts lie beside it, on its upper side; towards the rim of the surface they
   // go over to the other: so it crosses the crack there. @param offset  × cell
   void place(double offset) {
@@ -216,10 +228,10 @@ class SurfaceMaker {
   };
   std::optional<Crossing> crossing(const Vec3& a, const Vec3& b) const {
     std::optional<Crossing> best;
-    for (const TriId t : tree_.overlapping({a.cwiseMin(b), a.cwiseMax(b)}))
-      if (const auto s = passes(a, b, sheets_.triangle(t));
+    for (const TriId t : tree_->overlapping({a.cwiseMin(b), a.cwiseMax(b)}))
+      if (const auto s = passes(a, b, cracks_.triangle(t));
           s && (!best || std::abs(*s - 0.5) < std::abs(best->depth - 0.5)))
-        best = {*s, unit_normal(sheets_, t)};
+        best = {*s, unit_normal(cracks_, t)};
     if (best && best->normal.dot(b - a) < 0) best->normal *= -1;
     return best;
   }
@@ -295,9 +307,10 @@ class SurfaceMaker {
   const CellGrid& grid_;
   const LastLigament& ligament_;
   const TriMesh& sheets_;
-  const BoxTree& tree_;
   const std::vector<std::int8_t>& side_;
   std::vector<bool> near_, on_rim_;
+  TriMesh cracks_;  // what of the sheets is near
+  std::optional<BoxTree> tree_;
   std::vector<Vec3> across_;  // normal of the crack a node lies beside; zero for the others
   std::map<Link, NodeId> nodes_;
   std::vector<Link> links_;
@@ -312,17 +325,14 @@ TriMesh ligament_surface(const LastLigament& ligament, const TriMesh& sheets,
 }
 
 LigamentSurfaces::LigamentSurfaces(const LastLigament& ligament, const TriMesh& sheets)
-    : ligament_(ligament),
-      sheets_(sheets),
-      tree_(sheets),
-      side_(spread_outside(*ligament.grid, ligament.partition.side)) {}
+    : ligament_(ligament), sheets_(sheets), side_(spread_outside(*ligament.grid, ligament.partition.side)) {}
 
 TriMesh LigamentSurfaces::with(const LigamentOverlap& overlap) const {
-  return SurfaceMaker(ligament_, sheets_, tree_, side_).over_ends(overlap);
+  return SurfaceMaker(ligament_, sheets_, side_).over_ends(overlap);
 }
 
 TriMesh LigamentSurfaces::between_sides(const DividingSurface& how) const {
-  return SurfaceMaker(ligament_, sheets_, tree_, side_).everywhere(how);
+  return SurfaceMaker(ligament_, sheets_, side_).everywhere(how);
 }
 
 }  // namespace conchoid
