@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/random.hpp"
 #include "conchoid/intersect/expansion.hpp"
 #include "conchoid/mesh/id_lists.hpp"
 
@@ -20,13 +21,6 @@ constexpr int complete_below(int stage) {
          : stage == 2 ? 16
          : stage == 3 ? 64
                       : std::numeric_limits<int>::max();
-}
-
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
 }
 
 /// Polynomial in ε with exact coefficients, exponents ascending.
@@ -78,7 +72,7 @@ class Polynomial {
 };
 
 double hash_component(std::uint32_t id, int axis) {
-  return static_cast<double>(mix(3ull * id + static_cast<std::uint64_t>(axis)) >> 44) - 524288.0;
+  return static_cast<double>(mix_bits(3ull * id + static_cast<std::uint64_t>(axis)) >> 44) - 524288.0;
 }
 
 /// Coordinate of p − origin as a polynomial; displacements up to `stage`.
@@ -262,7 +256,7 @@ PerturbedPoints::PerturbedPoints(const TriMesh& mesh, Role role, std::uint32_t f
       for (const NodeId other : c) {
         if (other == n) continue;
         const auto key = (std::uint64_t(p.id) << 32) | (first_id + other.value);
-        p.across += static_cast<double>(mix(key) >> 54) * (mesh.positions[other] - p.x);
+        p.across += static_cast<double>(mix_bits(key) >> 54) * (mesh.positions[other] - p.x);
       }
       star.push_back(face(mesh, t));
     }

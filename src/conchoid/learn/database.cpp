@@ -69,8 +69,7 @@ Database merge_databases(const std::vector<std::filesystem::path>& files) {
     } else if (header_text(database.header, false) != header_text(result.header, false)) {
       throw InputError(files[f].string() + ": differs from " + files[0].string() +
                        " in specification, files that it names, seed, number of runs, model or material; "
-                       "merge only shards of one "
-                       "specification");
+                       "merge only shards of one specification");
     }
     std::size_t first = 0;
     for (const RunRecord& run : database.runs) {

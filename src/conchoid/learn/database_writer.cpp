@@ -111,9 +111,7 @@ void DatabaseWriter::State::open_folder(bool resume) {
   else if (read_bytes(folder / "header.json") != text)
     throw InputError(folder.string() +
                      ": was started with another specification or files that it names, number of runs, seed "
-                     "or shard; use the same "
-                     "ones, or remove the "
-                     "folder to start anew");
+                     "or shard; use the same ones, or remove the folder to start anew");
 }
 
 void DatabaseWriter::State::read_file() {
@@ -123,8 +121,7 @@ void DatabaseWriter::State::read_file() {
     throw InputError(
         file.string() +
         ": was generated with another specification or files that it names, number of runs, seed or shard; "
-        "use the same ones, "
-        "or remove the file to start anew");
+        "use the same ones, or remove the file to start anew");
   std::size_t first = 0;
   for (const RunRecord& run : old.runs) {
     std::vector<std::size_t> indices(run.samples);

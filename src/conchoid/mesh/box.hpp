@@ -15,6 +15,11 @@ inline Box united(const Box& a, const Box& b) {
   return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 
+/// Wider by `reach` on every side.
+inline Box grown(const Box& box, double reach) {
+  return {(box.low.array() - reach).matrix(), (box.high.array() + reach).matrix()};
+}
+
 /// Touching counts.
 inline bool overlap(const Box& a, const Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "conchoid/mesh/corners.hpp"
 #include "conchoid/mesh/tri_mesh.hpp"
 
 namespace conchoid {
@@ -38,12 +39,16 @@ template <class Value>
 using NodeLists = IdLists<NodeId, Value>;
 
 /// Triangles around each node, ascending.
-inline NodeLists<TriId> triangles_at_nodes(const TriMesh& mesh) {
-  return NodeLists<TriId>(mesh.node_count(), [&](const auto& put) {
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      for (const NodeId n : mesh.corners[TriId(t)])
-        put(n, TriId(t));
+inline NodeLists<TriId> triangles_at_nodes(const IdVector<TriId, Corners>& triangles,
+                                           std::size_t node_count) {
+  return NodeLists<TriId>(node_count, [&](const auto& put) {
+    for (TriId t(0); t.index() < triangles.size(); ++t.value)
+      for (const NodeId n : triangles[t])
+        put(n, t);
   });
+}
+inline NodeLists<TriId> triangles_at_nodes(const TriMesh& mesh) {
+  return triangles_at_nodes(mesh.corners, mesh.node_count());
 }
 
 }  // namespace conchoid

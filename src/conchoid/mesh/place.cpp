@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "conchoid/core/parallel.hpp"
+#include "conchoid/core/random.hpp"
 #include "conchoid/mesh/id_lists.hpp"
 
 namespace conchoid {
@@ -14,11 +15,10 @@ namespace {
 
 // Places that are equal have the same one; −0 is 0.
 std::size_t hash_of(const Vec3& x) {
-  constexpr std::size_t factor = 0x9E3779B97F4A7C15;  // 2⁶⁴ over the golden ratio
   std::size_t hash = 0;
   for (const double value : x)
-    hash = (hash ^ std::hash<double>{}(value)) * factor;
-  return hash >> 32;
+    hash = mix_bits(hash ^ std::hash<double>{}(value));
+  return hash;
 }
 
 }  // namespace

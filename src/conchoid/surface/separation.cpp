@@ -247,11 +247,7 @@ bool is_one_fan(const CutComplex& cut, NodeId n, std::span<const TriId> star) {
 /// Per node of the complex whether the sheet does not touch it and the surface makes one fan around it.
 std::vector<char> whole_nodes(const CutComplex& cut) {
   constexpr std::size_t nodes_of_task = 2048;
-  const NodeLists<TriId> stars(cut.positions.size(), [&](const auto& put) {
-    for (std::size_t t = 0; t < cut.surface.size(); ++t)
-      for (const NodeId n : cut.surface[TriId(t)])
-        put(n, TriId(t));
-  });
+  const NodeLists<TriId> stars = triangles_at_nodes(cut.surface, cut.positions.size());
   std::vector<char> whole(cut.positions.size(), 1);
   for (const auto& c : cut.sheet)
     for (const NodeId n : c)

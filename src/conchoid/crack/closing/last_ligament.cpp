@@ -125,8 +125,7 @@ double half_width(const std::vector<Vec3>& faces, const TriMesh& body, const Tri
     squared_bound = std::max(squared_bound, nearest);
   }
   const double reach = std::sqrt(squared_bound);
-  box.low.array() -= reach;
-  box.high.array() += reach;
+  box = grown(box, reach);
   const ClosestPointTree tree(join({part_within(box, body), part_within(box, sheets)}));
   double squared = 0;
   for (const Vec3& x : faces)

@@ -8,6 +8,7 @@
 #include "conchoid/core/parallel.hpp"
 #include "conchoid/crack/closing/last_ligament.hpp"
 #include "conchoid/crack/length_factors.hpp"
+#include "conchoid/mesh/box.hpp"
 #include "conchoid/mesh/box_tree.hpp"
 #include "conchoid/mesh/closest_point.hpp"
 #include "conchoid/mesh/crack_meshes.hpp"
@@ -117,7 +118,6 @@ class SurfaceMaker {
     for (const Edge& e : boundary_edges(sheets_))
       mark_near(0.5 * (sheets_.positions[e.a] + sheets_.positions[e.b]));
     march();
-    find_cracks();
     place(overlap.offset);
     smooth(kSmoothingRounds);
     return std::move(mesh_);
@@ -126,7 +126,6 @@ class SurfaceMaker {
   TriMesh everywhere(const DividingSurface& how) {
     near_.assign(grid_.cells(), true);
     march();
-    find_cracks();
     place(0);
     smooth(how.smoothing);
     if (how.halved) halve();
@@ -194,17 +193,14 @@ class SurfaceMaker {
 
   // Near the surface: it is little of what the sheets are, as a rule.
   void find_cracks() {
-    Box box = bounding_box(mesh_);
-    const double reach = 2 * grid_.size();
-    box.low.array() -= reach;
-    box.high.array() += reach;
-    cracks_ = part_within(box, sheets_);
+    cracks_ = part_within(grown(bounding_box(mesh_), 2 * grid_.size()), sheets_);
     tree_.emplace(cracks_);
   }
 
   // Nodes between cells that a crack parts lie beside it, on its upper side; towards the rim of the surface they
   // go over to the other: so it crosses the crack there. @param offset  × cell
   void place(double offset) {
+    find_cracks();
     on_rim_.assign(mesh_.node_count(), false);
     for (const Edge& e : boundary_edges(mesh_))
       on_rim_[e.a.index()] = on_rim_[e.b.index()] = true;
